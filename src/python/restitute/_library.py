@@ -10,6 +10,7 @@ Every component is loaded when it is first named: `core`, `cvode`, `table`, `tab
 """
 import os
 import queue
+import sys
 import threading
 import warnings
 
@@ -19,7 +20,6 @@ from restitute._places import LIBRARIES
 
 __all__ = ["array_type", "call", "ffi", "string", "struct", "text"]
 _COMPONENTS = ("core", "cvode", "table", "table_files", "bem", "files", "contact", "fit")
-_HOME = {"scene": "core", "body": "core", "collision": "core"}
 
 
 def __getattr__(name):
@@ -161,6 +161,9 @@ def interruptible(function, *arguments):
     return found
 
 
-def warn(message, category, level=3):
+def warn(message, category):
     """A warning that points at the caller of the package."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] == "restitute":
+        frame, level = frame.f_back, level + 1
     warnings.warn(message, category, stacklevel=level)

@@ -8,7 +8,7 @@ import numpy as np
 
 from restitute import _library, errors
 from restitute._library import call, ffi
-from restitute.material import Material
+from restitute.materials import Material
 
 __all__ = ["ContactForces", "ContactLaw"]
 
@@ -26,8 +26,8 @@ class ContactLaw:
     Parameters
     ----------
     material : Material
-    both_deform : bool
-        Two bodies of the material; else one, on a rigid one.
+    partner : "rigid" or "same"
+        One body deforms, or both, of the material.
     elements : int
         8, 16, 24 or 32: the error falls with the square.
     terms : int
@@ -62,9 +62,11 @@ class ContactLaw:
     True
     """
 
-    def __init__(self, material: Material, *, both_deform=False, elements=8, terms=4, slip_cycles=False,
+    def __init__(self, material: Material, *, partner="rigid", elements=8, terms=4, slip_cycles=False,
                  shortest=0.0, longest=0.0, frictionless=False, details=False):
-        options = _library.struct("contact_law_options", "contact", deformable=2 if both_deform else 1,
+        if partner not in ("rigid", "same"):
+            raise errors.DomainError(f"partner = {partner!r}: must be rigid or same; see Material.effective")
+        options = _library.struct("contact_law_options", "contact", deformable=2 if partner == "same" else 1,
                                   elements=elements, terms=terms, slip_cycles=slip_cycles, shortest=shortest,
                                   longest=longest, frictionless=frictionless, details=details)
         handle = ffi.new("restitute_contact_law **")

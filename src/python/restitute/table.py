@@ -8,9 +8,11 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from restitute import _library, errors, impact
+from restitute import _library, errors
 from restitute._library import call, ffi
-from restitute.material import Material
+from restitute.impact import LIMITS
+from restitute.materials import Material
+from restitute.scenes import Impacts
 
 __all__ = ["Table", "TableContact", "TablePair", "build_tables"]
 
@@ -80,7 +82,7 @@ class Table:
         speed_limit, radius_limit, displacement_limit : float, optional
             Limits of the model, as in `pair`.
         **contact
-            As in `pair`: `radius`, `density` or `mass`, `friction`, `radius2`, `both_deform`, ...
+            As in `pair`: `radius`, `density` or `mass`, `friction`, `radius2`, `partner`, ...
 
         Raises
         ------
@@ -107,7 +109,7 @@ class Table:
             if value is not None:
                 setattr(options, name, value)
         handle = ffi.new("restitute_table **")
-        scene = _scene(material, contact)
+        scene, _impacts = _scene(material, contact)
         status, message = _library.interruptible(_library.table.restitute_table_build, scene, options, handle)
         if status:
             _library.warn(message, errors.ToleranceWarning)
@@ -204,8 +206,7 @@ class Table:
             The table does not serve it.
         """
         struct = _library.struct("table_contact", "table", touch_gap=touch_gap)
-        solid = material or self.material  # lives until the call is over
-        scene = _scene(solid, contact)
+        scene, _impacts = _scene(material or self.material, contact)
         call(_library.table.restitute_table_contact_set, self._handle, scene, struct)
         return TableContact(struct)
 
@@ -273,15 +274,15 @@ class Table:
         low, high = self.info.speed
         if outside:
             _library.warn(f"{outside} of {normal.size} normal speeds are outside the table's range, {low:.6g} to "
-                          f"{high:.6g} m/s, whose ends are taken", errors.ModelLimitWarning, 4)
+                          f"{high:.6g} m/s, whose ends are taken", errors.ModelLimitWarning)
         if contact:
             return  # the limits in the table are those of its own contact
         flags = self.flags(normal, sliding)
-        for bit in (1 << k for k in range(int(flags.max(initial=0)).bit_length())):
+        for bit, _, option, _, words in LIMITS:
             count = int(np.count_nonzero(flags & bit))
             if count:
-                words = _library.text(_library.core.restitute_flag_text(bit))
-                _library.warn(f"{count} of {flags.size}: {words}", errors.ModelLimitWarning, 4)
+                _library.warn(f"{count} of {flags.size} impacts: {words.format(self.data[option])}",
+                              errors.ModelLimitWarning)
 
     def __repr__(self):
         low, high = self.info.speed
@@ -295,8 +296,12 @@ def _speeds(normal, sliding):
 
 
 def _scene(material, contact):
-    """One restitute_scene, whose speed is not used."""
-    records, shape = impact.scenes(material, **{"speed": 1.0, **contact})
-    if shape:
-        raise errors.DomainError(f"a table is of one contact, not of an array of them of shape {shape}")
-    return _library.pointer(records, "restitute_scene[]")
+    """The one contact of these keywords: an array of one restitute_scene, and what must outlive it."""
+    if "speed" not in contact and "normal_speed" not in contact:
+        contact = {**contact, "speed": 1.0}  # the library does not use it
+    impacts = Impacts(material, **contact)
+    if impacts.kind != "scene" or impacts.shape:
+        raise errors.DomainError("a table is of one contact in SI units, not of arrays, nor of chi and psi")
+    if impacts.refused:
+        raise errors.DomainError(impacts.refused[0])
+    return _library.pointer(impacts.bound(), "restitute_scene[]"), impacts

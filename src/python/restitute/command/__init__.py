@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command `restitute`: one module a subcommand, with add(subparsers) and run(arguments) -> exit status."""
+"""The command `restitute`. A subcommand is a module with add(subparsers), which makes its parser,
+and run(arguments), which returns the exit status."""
 import os
 import signal
 import sys
@@ -20,8 +21,7 @@ COMMANDS = {
     "paper": ("paper", "the figures of the paper and more, remade and checked"),
 }
 OLD_NAMES = {"sweep": "paper"}
-_LICENCES = {"bem": ("FFTW", "version 2 or\nlater, for the method bem"),
-             "fit": ("GSL", "version 3 or\nlater, for the command fit")}
+_LICENCES = {"bem": ("FFTW", 2, "method"), "fit": ("GSL", 3, "command")}
 
 
 def main(words=None):
@@ -83,15 +83,17 @@ def _run(words):
         return module.run(arguments)
     else:
         wrong = f'unknown command "{word[:64]}": must be' if word else "a command is missing:"
-        raise Refusal(f"{wrong} {listed(COMMANDS)}{did_you_mean(word, COMMANDS) if word else ''}; see restitute --help")
+        meant = did_you_mean(word, COMMANDS)
+        raise Refusal(f"{wrong} {listed(COMMANDS)}{meant}; see restitute --help")
     return DONE
 
 
 def _usage():
     lines = [f"  restitute {name:10} {about}" for name, (_, about) in COMMANDS.items()]
-    return "\n".join(["Usage: restitute COMMAND [OPTION...]", "", *lines, "",
-                      "restitute COMMAND --help shows its options, restitute --version the version.",
-                      "Oblique impact of linear-viscoelastic spheres with friction. The manual is restitute(1).", ""])
+    return "\n".join([
+        "Usage: restitute COMMAND [OPTION...]", "", *lines, "",
+        "restitute COMMAND --help shows its options, restitute --version the version.",
+        "Oblique impact of linear-viscoelastic spheres with friction. Manual: restitute(1).", ""])
 
 
 def _version():
@@ -99,18 +101,20 @@ def _version():
     from restitute._places import LIBRARIES
 
     text = f"restitute {restitute.version()}\nLicence: BSD-3-Clause."
-    for component, (library, rest) in _LICENCES.items():
+    for component, (library, number, kind) in _LICENCES.items():
         if component in LIBRARIES:
-            text += (f" This build links {library}, which is under the GNU General Public License, {rest}: "
-                     "it can be passed on under that licence only.")
+            text += (f"\nThis build links {library}, which is under the GNU General Public License, "
+                     f"version {number} or later,\nfor the {kind} {component}: it can be passed on "
+                     "under that licence only.")
     return text + "\n"
 
 
 def _prepare_process():
     """Closed descriptors and signals.
 
-    A standard descriptor that is closed would become an output file, and messages would land in it. Opened in the
-    wrong direction it still cannot be used, so that a result that could not be printed is an error.
+    A standard descriptor that is closed would become an output file, and messages would land in it.
+    Opened in the wrong direction it still cannot be used, so that a result that could not be
+    printed is an error.
     """
     for descriptor in range(3):
         try:

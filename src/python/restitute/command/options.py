@@ -10,23 +10,23 @@ import argparse
 import errno
 import os
 import re
-import sys
 
-NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_DECIMAL = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_NUMBER = re.compile(_DECIMAL, re.A)
 _INFINITE = re.compile(r"[+-]?inf", re.I)
-_UNIT = re.compile(rf"({NUMBER}) ?((?:[kMGcmunµ]?(?:m|s|g|N|Pa|rad|Hz)|deg|°|%|rpm|K|°?C)"
-                   r"(?:\^?-?[1-3])?(?:[/*·].*)?)")
-_PI = re.compile(rf"({NUMBER})?\*?(?:pi|π)(?:/({NUMBER}))?", re.I)
+_UNIT = re.compile(rf"({_DECIMAL}) ?((?:[kMGcmunµ]?(?:m|s|g|N|Pa|rad|Hz)|deg|°|%|rpm|K|°?C)"
+                   r"(?:\^?-?[1-3])?(?:[/*·].*)?)", re.A)
+_PI = re.compile(rf"({_DECIMAL})?\*?(?:pi|π)(?:/({_DECIMAL}))?", re.A | re.I)
 # What other programs and papers call an option.
-_SYNONYMS = {"mu": "friction", "diameter": "radius, half of it", "nu": "poisson-ratio", "rho": "density",
-             "omega": "spin", "eta": "viscosity", "temperature": "time-shift", "e": "youngs-modulus",
-             "young": "youngs-modulus", "hardness": "shore-a", "shore": "shore-a", "v": "speed", "r": "radius",
-             "m": "mass", "g": "modulus1", "shear-modulus": "modulus1", "wall": "partner", "out": "output",
-             "file": "input", "plot": "figure", "tol": "tolerance", "theta": "angle"}
+_SYNONYMS = {"mu": "friction", "diameter": "radius, half of it", "nu": "poisson-ratio",
+             "rho": "density", "omega": "spin", "eta": "viscosity", "e": "youngs-modulus",
+             "young": "youngs-modulus", "hardness": "shore-a", "shore": "shore-a", "v": "speed",
+             "r": "radius", "m": "mass", "g": "modulus1", "shear-modulus": "modulus1",
+             "wall": "partner", "file": "input", "plot": "figure", "theta": "angle"}
 
 
 class Refusal(Exception):
-    """What the user asks for cannot be done. The text names the value, the place and the allowed range."""
+    """What the user asks for cannot be done. The text names the value, the place and the range."""
 
 
 def shown(text):
@@ -63,7 +63,8 @@ def emit(text):
     except BrokenPipeError:
         raise
     except OSError as problem:
-        raise Refusal(f"standard output cannot be written: {os.strerror(problem.errno or errno.EIO)}") from None
+        why = os.strerror(problem.errno or errno.EIO)
+        raise Refusal(f"standard output cannot be written: {why}") from None
 
 
 def number_text(value):
@@ -81,41 +82,35 @@ def number(text):
     Raises
     ------
     ValueError
-        What it is instead, e.g. "a decimal comma; write 1.5"; may be empty.
-    OverflowError
-        It is too large or too small for a double.
+        What it is instead, e.g. "is not a number (a decimal comma; write 1.5)".
     """
     if _INFINITE.fullmatch(text):
         return float(text)
     above, slash, below = text.partition("/")
-    if not re.fullmatch(NUMBER, above, re.A) or (slash and not re.fullmatch(NUMBER, below, re.A)):
-        raise ValueError(_misreading(text))
-    value = float(above)
-    if slash:
-        if float(below) == 0:
-            raise ValueError("a division by zero")
-        value /= float(below)
-    if abs(value) == float("inf") or (value == 0 and re.search("[1-9]", re.split("[eE]", above)[0])):
-        raise OverflowError
+    if not _NUMBER.fullmatch(above) or slash and not _NUMBER.fullmatch(below):
+        raise ValueError(f"is not a number{_misreading(text)}")
+    if slash and float(below) == 0:
+        raise ValueError("is not a number (a division by zero)")
+    value = float(above) / float(below or 1)
+    if abs(value) == float("inf") or value == 0 and re.search("[1-9]", re.split("[eE]", above)[0]):
+        raise ValueError("is too large or too small for a double")
     return value
 
 
 def _misreading(text):
-    """What a text is that somebody took for a number; empty if that is not known."""
+    """What a text is that somebody took for a number, in parentheses; empty if not known."""
+    unit, pi = _UNIT.fullmatch(text), _PI.fullmatch(text)
     if re.fullmatch(r"[+-]?\d+,\d+(?:[eE][+-]?\d+)?", text, re.A):
-        return f"a decimal comma; write {text.replace(',', '.')}"
-    unit = _UNIT.fullmatch(text)
+        return f" (a decimal comma; write {text.replace(',', '.')})"
     if unit:
-        return f'the unit "{unit[2]}" is glued to it; give the number alone, in the unit that is asked for'
-    pi = _PI.fullmatch(text)
+        return f' (with the unit "{unit[2]}"; give the number alone, in the unit asked for)'
     if pi and float(pi[2] or 1) != 0:
-        return f"pi is not known here; write {float(pi[1] or 1) * 3.141592653589793 / float(pi[2] or 1):.15g}"
-    if text != text.strip():
-        return "there are blanks around it"
-    return ""
+        value = float(pi[1] or 1) * 3.141592653589793 / float(pi[2] or 1)
+        return f" (pi is not known here; write {value:.15g})"
+    return " (there are blanks around it)" if text != text.strip() else ""
 
 
-def read_number(text, place, allowed, fits):
+def read_number(text, place, allowed, fits, quote=""):
     """A number for which fits(number) holds.
 
     Parameters
@@ -128,28 +123,18 @@ def read_number(text, place, allowed, fits):
     try:
         value = number(text)
     except ValueError as why:
-        reason = f" ({why})" if str(why) else ""
-        raise Refusal(f'{place} = "{text[:64]}" is not a number{reason}: {allowed}') from None
-    except OverflowError:
-        raise Refusal(f"{place} = {text[:64]} is too large or too small for a double: {allowed}") from None
+        raise Refusal(f'{place} = "{text[:64]}" {why}: {allowed}') from None
     if not fits(value):
-        raise Refusal(f"{place} = {number_text(value)}: {allowed}")
+        raise Refusal(f"{place} = {quote}{text[:64]}{quote}: {allowed}")
     return value
 
 
 def bounded(low, high, whole=False):
     """A reader of numbers in [low, high]."""
     def read(text, place):
-        try:
-            value = number(text)
-            reason = ""
-        except ValueError as why:
-            value, reason = float("nan"), f" ({why})" if str(why) else ""
-        except OverflowError:
-            value, reason = float("nan"), ""
-        if not low <= value <= high or (whole and value != int(value)):
-            kind = "a whole number" if whole else "a number"
-            raise Refusal(f'{place} = "{text[:64]}"{reason}: must be {kind} in [{low:g}, {high:g}]')
+        allowed = f"must be {'a whole number' if whole else 'a number'} in [{low:g}, {high:g}]"
+        value = read_number(text, place, allowed, quote='"',
+                            fits=lambda x: low <= x <= high and not (whole and x % 1))
         return int(value) if whole else value
     return read
 
@@ -158,7 +143,8 @@ def one_of(*words):
     """A reader of one of these words."""
     def read(text, place):
         if text not in words:
-            raise Refusal(f'{place} = "{text[:64]}": must be {listed(words)}{did_you_mean(text, words)}')
+            raise Refusal(f'{place} = "{text[:64]}": must be {listed(words)}'
+                          f"{did_you_mean(text, words)}")
         return text
     return read
 
@@ -186,8 +172,8 @@ def need(module, place):
         return import_module(module)
     except ImportError:
         name = module.partition(".")[0]
-        raise Refusal(f"{place}: needs {name}, which this Python does not have (Debian: python3-{name}; "
-                      f"pip install {name})") from None
+        raise Refusal(f"{place}: needs {name}, which this Python does not have (Debian: "
+                      f"python3-{name}; pip install {name})") from None
 
 
 class Once(argparse.Action):
@@ -206,18 +192,16 @@ class Once(argparse.Action):
         setattr(namespace, self.dest, self.read(value, option_string) if self.read else value)
 
 
-def add(group, name, metavar, help, read=None, also=(), hidden=()):
-    """An option with an argument. `also` are names of equal standing, `hidden` such that no help shows."""
-    dest = name.replace("-", "_")
-    group.add_argument(*[f"--{word}" for word in (name, *also)], dest=dest, metavar=metavar,
-                       help=help.replace("%", "%%"), read=read, action=Once)
-    if hidden:
-        group.add_argument(*[f"--{word}" for word in hidden], dest=dest, help=argparse.SUPPRESS, read=read, action=Once)
+def add(group, name, metavar, help, read=None, also=()):
+    """An option with an argument. `also` are names of equal standing."""
+    group.add_argument(*[f"--{word}" for word in (name, *also)], dest=name.replace("-", "_"),
+                       metavar=metavar, help=help.replace("%", "%%"), read=read, action=Once)
 
 
 def add_flag(group, name, help):
     """An option without an argument."""
-    group.add_argument(f"--{name}", dest=name.replace("-", "_"), nargs=0, help=help, action=Once, default=False)
+    group.add_argument(f"--{name}", dest=name.replace("-", "_"), nargs=0, help=help, action=Once,
+                       default=False)
 
 
 class _Formatter(argparse.RawDescriptionHelpFormatter):
@@ -231,12 +215,14 @@ class _Formatter(argparse.RawDescriptionHelpFormatter):
         super().__init__(prog, max_help_position=26, width=max(60, min(width, 100)))
 
     def _format_action_invocation(self, action):
-        names = ", ".join(action.option_strings)
-        return f"{names} {action.metavar}" if names and action.metavar else names or super()._format_action_invocation(action)
+        if not action.option_strings:
+            return super()._format_action_invocation(action)
+        return " ".join(filter(None, (", ".join(action.option_strings), action.metavar)))
 
 
 class Parser(argparse.ArgumentParser):
-    """argparse, strict: no abbreviations, whatever follows an option is its value, every mistake is a Refusal."""
+    """argparse, strict: no abbreviations, what follows an option is its value, every mistake is a
+    Refusal."""
 
     def __init__(self, **settings):
         settings.setdefault("formatter_class", _Formatter)
@@ -250,13 +236,13 @@ class Parser(argparse.ArgumentParser):
         return self._actions_of_first_word
 
     def parse(self, words):
-        """The namespace of these words. `given` in it tells which options were given, by which names."""
+        """The namespace of these words. Its `given` has the options given, by which names."""
         namespace = argparse.Namespace(given={})
         if self._actions_of_first_word and words and not words[0].startswith("-"):
             action, choices = words[0], self._actions_of_first_word.choices
             if action not in choices:
-                raise Refusal(f'{self.prog}: unknown action "{action[:64]}": must be {listed(choices)}'
-                              f"{did_you_mean(action, choices)}")
+                raise Refusal(f'{self.prog}: unknown action "{action[:64]}": must be '
+                              f"{listed(choices)}{did_you_mean(action, choices)}")
             namespace = choices[action].parse(words[1:])
             namespace.action = action
             return namespace
@@ -271,7 +257,7 @@ class Parser(argparse.ArgumentParser):
         joined, rest = [], iter(words)
         for word in rest:
             name, equals, _ = word.partition("=")
-            if not word.startswith("-") or word == "-":
+            if word[:1] != "-" or word == "-":
                 joined.append(word)
                 continue
             action = self._option_string_actions.get(name)

@@ -1,124 +1,127 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What describes an impact: one table for options, columns and JSON keys, and from given values to keywords of
-`restitute.pair`.
+"""What describes an impact: one table for options, columns and JSON keys, and the way from given
+values to the keywords of `restitute.pair`.
 
-A field has one name everywhere: the option `--speed`, the keyword `speed`, and with its unit the column and JSON key
-`speed_m_s`. Older names are accepted.
+A field has one name everywhere: the option `--speed`, the keyword `speed`, and with its unit the
+column and JSON key `speed_m_s`. Older names are accepted.
 """
 import os
-from collections import namedtuple
+import re
 
-from restitute.command.options import Refusal, add, add_flag, bounded, did_you_mean, listed, one_of, read_number
+from restitute.command import options
+from restitute.command.options import Refusal, bounded, did_you_mean, number, read_number
 
-_INFINITY = float("inf")
-_POSITIVE, _FIXED = "must be finite and > 0", "must be > 0 (inf: held fast)"
-Field = namedtuple("Field", "name unit low high ends allowed help options columns empty")
-Field.__doc__ = """A number of an impact. `ends` are brackets of the range [low, high]; `options` and `columns` are
-older names; an `empty` cell means that it is not given."""
-Field.key = property(lambda field: field.name + _SUFFIXES[field.unit])
-Field.option = property(lambda field: "--" + field.name.replace("_", "-"))
-_SUFFIXES = {"1": "", "m": "_m", "kg/m^3": "_kg_m3", "kg": "_kg", "kg m^2": "_kg_m2", "m/s": "_m_s", "deg": "_deg",
-             "rad/s": "_rad_s", "Pa": "_pa", "Pa s": "_pa_s"}
+INFINITY = float("inf")
+_SUFFIXES = {"1": "", "m": "_m", "kg/m^3": "_kg_m3", "kg": "_kg", "kg m^2": "_kg_m2", "m/s": "_m_s",
+             "deg": "_deg", "rad/s": "_rad_s", "Pa": "_pa", "Pa s": "_pa_s"}
+# name older-name | unit | range | what the numbers at its ends mean | help
+_TABLE = """
+chi | 1 | [1/3, 1000] | | (1-nu)/(2-nu) (1 + m R^2/J); default 7/6, a solid incompressible sphere
+psi | 1 | [0, 1e12] | | (2-2nu)/(2-nu) |tangential velocity of the contact point| /
+    (friction * normal velocity); 0: no slip; required
+delta1 | 1 | [0, 1e12] | | eta sqrt(a_el/(G1 m (1-nu))); default 0: elastic
+gamma | 1 | [0, inf] | inf: elastic | G1/G2; 0: Kelvin-Voigt, inf: elastic; required if delta1 > 0
+delta2 | 1 | (0, 1e12] | | delta1 sqrt(gamma); instead of gamma or of delta1
+modulus1 modulus | Pa | [0, inf) | | instead of --material: shear modulus G1 of a standard solid,
+    Pa; 0: Maxwell; alone: elastic
+youngs_modulus | Pa | (0, inf) | | instead of --modulus1: E = 2 (1+nu) G1, Pa
+shore_a | 1 | [20, 90] | | instead of --modulus1: hardness Shore A, S, of which Gent (1958) makes
+    E = 0.0981 MPa (56 + 7.62336 S)/(0.137505 (254 - 2.54 S)); a guide only
+modulus2 | Pa | (0, inf) | | G2, Pa, in series with the dashpot; without it Kelvin-Voigt
+viscosity | Pa s | (0, inf) | | eta of the dashpot, Pa s
+poisson_ratio poisson | 1 | [0, 0.5] | | Poisson's ratio of that solid; default 0.5
+time_shift | 1 | (0, inf) | | a_T: relaxation times and viscosity are multiplied by it, as by a
+    change of temperature; default 1
+radius radius1 | m | (0, inf) | | radius of the sphere, m; required
+density density1 | kg/m^3 | (0, inf) | | density of the sphere, kg/m^3; this or --mass; default that
+    of its material
+mass mass1 | kg | (0, inf) | | mass of the sphere, kg
+inertia inertia1 | kg m^2 | (0, inf) | | moment of inertia, kg m^2; default solid, 2/5 m R^2
+radius2 | m | (0, inf] | inf: a wall | radius of the partner, m; default inf: a wall
+density2 | kg/m^3 | (0, inf] | inf: held fast | density of the partner sphere, kg/m^3; this or
+    --mass2; default that of its material
+mass2 | kg | (0, inf] | inf: held fast | mass of the partner sphere, kg; inf: held fast
+inertia2 | kg m^2 | (0, inf) | | its moment of inertia, kg m^2; default solid
+speed velocity | m/s | (0, inf) | | speed of the sphere's centre relative to the partner, m/s;
+    required
+angle | deg | [0, 90) | | angle between the velocity and the normal, degrees; default 0
+spin spin1 | rad/s | (-inf, inf) | | spin of the sphere, rad/s; positive spin adds to the sliding
+    velocity v sin(angle) + R1 spin + R2 spin2, backspin is negative; default 0
+spin2 | rad/s | (-inf, inf) | | spin of the partner sphere, rad/s, of the same sign; default 0
+friction | 1 | [0, inf] | inf: no slip | coefficient of friction; inf: no slip; required
+"""
 
 
-def _field(name, unit, low, high, ends, allowed, help, options="", columns="", empty=True):
-    return Field(name, unit, low, high, ends, allowed, help, options.split(), columns.split(), empty)
+class Field:
+    """A number of an impact.
+
+    Attributes
+    ----------
+    name, key, option : str
+        `speed`, `speed_m_s`, `--speed`.
+    older : list of str
+        Names that are accepted too.
+    unit, allowed, help : str
+        `allowed` is the range in words.
+    """
+
+    def __init__(self, row):
+        cells = re.split(r" ?\| ?", " ".join(row.split()), maxsplit=4)
+        names, self.unit, ends, special, help = cells
+        self.name, *self.older = names.split()
+        self.key, self.option = self.name + _SUFFIXES[self.unit], "--" + self.name.replace("_", "-")
+        low, high = ends[1:-1].split(", ")
+        self.low, self.high = number(low), number(high)
+        self.with_low, self.with_high = ends[0] == "[", ends[-1] == "]"
+        words = f"in {ends}" if high != "inf" else "finite" if low != "0" else \
+            f"{'>=' if self.with_low else '>'} 0"
+        if high == "inf" and low == "0" and not self.with_high:
+            words = f"finite and {words}"
+        self.allowed = f"must be {words}" + (f" ({special})" if special else "")
+        self.help = help if words == "finite" or "inf" in ends else f"{help}; in {ends}"
+
+    def fits(self, value):
+        """Whether a number, or each of an array, lies in the range."""
+        above = value >= self.low if self.with_low else value > self.low
+        return above & (value <= self.high if self.with_high else value < self.high)
+
+    def read(self, text, place):
+        """The number from its text, or a Refusal."""
+        return read_number(text, place, self.allowed, self.fits)
 
 
-DIMENSIONLESS = {field.name: field for field in (
-    _field("chi", "1", 1 / 3, 1000, "[]", "must be in [1/3, 1000]",
-           "(1-nu)/(2-nu) (1 + m R^2/J), in [1/3, 1000]; default 7/6, a solid incompressible sphere", empty=False),
-    _field("psi", "1", 0, 1e12, "[]", "must be in [0, 1e12]",
-           "(2-2nu)/(2-nu) |tangential velocity of the contact point| / (friction * normal velocity), in [0, 1e12]; "
-           "0: no slip; required", empty=False),
-    _field("delta1", "1", 0, 1e12, "[]", "must be in [0, 1e12]",
-           "eta sqrt(a_el/(G1 m (1-nu))), in [0, 1e12]; default 0: elastic", empty=False),
-    _field("gamma", "1", 0, _INFINITY, "[]", "must be >= 0 (inf: elastic)",
-           "G1/G2, >= 0; 0: Kelvin-Voigt, inf: elastic; required if delta1 > 0", empty=False),
-    _field("delta2", "1", 0, 1e12, "(]", "must be in (0, 1e12]",
-           "delta1 sqrt(gamma), in (0, 1e12]; instead of gamma or of delta1", empty=False),
-)}
-SOLID = {field.name: field for field in (
-    _field("modulus1", "Pa", 0, _INFINITY, "[)", "must be finite and >= 0",
-           "instead of --material: shear modulus G1 of a standard solid, Pa; 0: Maxwell; alone: elastic", "modulus",
-           "modulus1_Pa"),
-    _field("youngs_modulus", "Pa", 0, _INFINITY, "()", _POSITIVE,
-           "instead of --modulus1: E = 2 (1 + nu) G1, Pa"),
-    _field("shore_a", "1", 20, 90, "[]", "must be in [20, 90]",
-           "instead of --modulus1: hardness Shore A, in [20, 90], of which Gent (1958) makes "
-           "E = 0.0981 MPa (56 + 7.62336 S)/(0.137505 (254 - 2.54 S)); a guide only"),
-    _field("modulus2", "Pa", 0, _INFINITY, "()", _POSITIVE,
-           "G2, Pa, in series with the dashpot; without it Kelvin-Voigt", columns="modulus2_Pa"),
-    _field("viscosity", "Pa s", 0, _INFINITY, "()", _POSITIVE, "eta of the dashpot, Pa s", columns="viscosity_Pa_s"),
-    _field("poisson_ratio", "1", 0, 0.5, "[]", "must be in [0, 0.5]", "Poisson's ratio of that solid; default 0.5",
-           "poisson"),
-    _field("time_shift", "1", 0, _INFINITY, "()", _POSITIVE,
-           "a_T: relaxation times and viscosity are multiplied by it, as by a change of temperature; default 1"),
-)}
-BODIES = {field.name: field for field in (
-    _field("radius", "m", 0, _INFINITY, "()", _POSITIVE, "radius of the sphere, m; required", "radius1", "radius1_m",
-           empty=False),
-    _field("density", "kg/m^3", 0, _INFINITY, "()", _POSITIVE,
-           "density of the sphere, kg/m^3; this or --mass; default the material's", "density1", "density1_kg_m3"),
-    _field("mass", "kg", 0, _INFINITY, "()", _POSITIVE, "mass of the sphere, kg", "mass1", "mass1_kg"),
-    _field("inertia", "kg m^2", 0, _INFINITY, "()", _POSITIVE, "moment of inertia, kg m^2; default solid, 2/5 m R^2",
-           "inertia1", "inertia1_kg_m2"),
-    _field("radius2", "m", 0, _INFINITY, "(]", "must be > 0 (inf: a wall)",
-           "radius of the partner, m; default inf: a wall"),
-    _field("density2", "kg/m^3", 0, _INFINITY, "(]", _FIXED,
-           "density of the partner sphere, kg/m^3; this or --mass2; default its material's"),
-    _field("mass2", "kg", 0, _INFINITY, "(]", _FIXED, "mass of the partner sphere, kg; inf: held fast"),
-    _field("inertia2", "kg m^2", 0, _INFINITY, "()", _POSITIVE, "its moment of inertia, kg m^2; default solid"),
-    _field("speed", "m/s", 0, _INFINITY, "()", _POSITIVE,
-           "speed of the sphere's centre relative to the partner, m/s; required", "velocity", "velocity_m_s",
-           empty=False),
-    _field("angle", "deg", 0, 90, "[)", "must be in [0, 90)",
-           "angle between the velocity and the normal, degrees, in [0, 90); default 0", empty=False),
-    _field("spin", "rad/s", -_INFINITY, _INFINITY, "()", "must be finite",
-           "spin of the sphere, rad/s; positive spin adds to the sliding velocity v sin(angle) + R1 spin + R2 spin2, "
-           "backspin is negative; default 0", "spin1", "spin1_rad_s"),
-    _field("spin2", "rad/s", -_INFINITY, _INFINITY, "()", "must be finite",
-           "spin of the partner sphere, rad/s, of the same sign; default 0"),
-    _field("friction", "1", 0, _INFINITY, "[]", "must be >= 0 (inf: no slip)",
-           "coefficient of friction, >= 0; inf: no slip; required", empty=False),
-)}
-SI = {**SOLID, **BODIES}
-FIELDS = {**DIMENSIONLESS, **SI}
+FIELDS = {field.name: field for field in map(Field, re.split(r"\n(?! )", _TABLE.strip()))}
+DIMENSIONLESS = ("chi", "psi", "delta1", "gamma", "delta2")
+SOLID = ("modulus1", "youngs_modulus", "shore_a", "modulus2", "viscosity", "poisson_ratio",
+         "time_shift")
+SI = tuple(name for name in FIELDS if name not in DIMENSIONLESS)
 WORDS = ("material", "partner", "rotation_blocked")  # columns that are no numbers
-_BY_COLUMN = {column.casefold(): field for field in FIELDS.values() for column in (field.key, *field.columns)}
+# What a row must have; an empty cell of another column means that it is not given.
+NEVER_EMPTY = (*DIMENSIONLESS, "radius", "speed", "angle", "friction")
+_BY_COLUMN = {(name + _SUFFIXES[field.unit]).casefold(): field
+              for field in FIELDS.values() for name in (field.name, *field.older)}
 
 
 def field_of_column(column):
-    """The field that a column or JSON key means, by its name or an older one; None if it is none."""
+    """The field that a column or JSON key means, by its name or an older one; None if none."""
     return _BY_COLUMN.get(column.casefold())
 
 
 def similar_column(column):
-    """"; did you mean ...?" for an unknown column that resembles a known one, e.g. without its unit; or nothing."""
+    """"; did you mean ...?" for a column that resembles a known one, e.g. without unit; or ""."""
     plain = column.casefold().replace("-", "_")
     for field in FIELDS.values():
-        if plain in (field.name, *[option.replace("-", "_") for option in field.options]):
+        if plain in (field.name, *field.older):
             return f"; did you mean {field.key}?"
-    return did_you_mean(column, [*_BY_COLUMN, *WORDS])
-
-
-def fits(field, value):
-    """Whether a number, or each of an array, lies in the range of a field."""
-    above = value >= field.low if field.ends[0] == "[" else value > field.low
-    return above & (value <= field.high if field.ends[1] == "]" else value < field.high)
-
-
-def read_field(field, text, place):
-    """The number of a field from its text, or a Refusal."""
-    return read_number(text, place, field.allowed, lambda value: fits(field, value))
+    return did_you_mean(column, [*(field.key for field in FIELDS.values()), *WORDS])
 
 
 def read_partner(text, place):
     """rigid, same, or what names the partner's own material."""
-    if text in ("rigid", "same") or _is_file(text) or _is_known(text):
+    if text in ("rigid", "same") or _is_file(text) or text in names():
         return text
-    raise Refusal(f'{place} = "{text[:64]}": must be rigid, same or a material file, .json or .csv'
-                  f"{did_you_mean(text, ['rigid', 'same', *_names()])}")
+    raise Refusal(f'{place} = "{text[:64]}": must be rigid, same or a material file, .json or '
+                  f".csv, or a name{did_you_mean(text, ['rigid', 'same', *names()])}")
 
 
 def read_switch(text, place):
@@ -128,28 +131,26 @@ def read_switch(text, place):
     return text == "1"
 
 
-# ------------------------------------------------------------------------------------------------ options
+# ---------------------------------------------------------------------------------------- options
 
 
-def add_fields(group, fields, skip=()):
-    """Options of these fields, whose older names are accepted."""
-    for field in fields.values():
-        if field.name not in skip:
-            add(group, field.option[2:], "NUMBER", field.help,
-                lambda text, place, field=field: read_field(field, text, place), also=field.options)
+def add_fields(group, fields):
+    """Options of the fields of these names."""
+    for field in map(FIELDS.get, fields):
+        options.add(group, field.option[2:], "NUMBER", field.help, field.read, also=field.older)
 
 
 def add_scene(parser, skip=()):
-    """Options of an impact in SI units."""
-    group = parser.add_argument_group("An impact in SI units, a sphere against a wall or a second sphere")
-    add(group, "material", "FILE|NAME",
-        "what deforms: a material file, .json, or .csv with tau_s,G_Pa, or a name of restitute materials; "
-        "this or --modulus1")
-    add_fields(group, SI, skip)
-    add(group, "partner", "rigid|same|FILE|NAME",
-        "rigid: one of the two bodies deforms (default); same: both do, and are of the material; else the material of "
-        "the partner, if it is another one", read_partner)
-    add_flag(group, "rotation-blocked", "the spheres cannot rotate")
+    """Options of an impact in SI units, without the fields `skip`."""
+    group = parser.add_argument_group(
+        "An impact in SI units, a sphere against a wall or a second sphere")
+    options.add(group, "material", "FILE|NAME", "what deforms: a material file, .json, or .csv "
+                "with tau_s,G_Pa, or a name of restitute materials; this or --modulus1")
+    add_fields(group, [name for name in SI if name not in skip])
+    options.add(group, "partner", "rigid|same|FILE|NAME", "rigid: one of the two bodies deforms "
+                "(default); same: both do, and are of the material; else the material of the "
+                "partner, if it is another one", read_partner)
+    options.add_flag(group, "rotation-blocked", "the spheres cannot rotate")
 
 
 def add_impact(parser):
@@ -161,69 +162,72 @@ def add_impact(parser):
 def add_solution(parser):
     """Options that say how impacts are solved."""
     group = parser.add_argument_group("How it is solved")
-    add(group, "method", "NAME",
-        "euler (default): the foundation of the paper; sync: fast and precise, for tables and tolerances below 1e-3; "
-        "cvode, cvode-bdf, cvode-adams: adaptive order and step, with events (component cvode); bem, bem-paper: "
-        "boundary elements, an independent check (component bem)", read_method)
-    add(group, "tolerance", "ERROR", "absolute error of ez and ex, in [1e-8, 0.1]; default 1e-3", bounded(1e-8, 0.1))
-    add(group, "elements", "N", "elements over the largest contact radius, 4 to 1000000; default chosen",
-        bounded(4, 1e6, whole=True))
-    add(group, "time-step", "STEP", "in T, or in s with a material; > 0; default chosen; not with sync",
-        bounded(1e-300, 1e300))
-    add(group, "max-work", "SECONDS", "most work an impact may take, in nominal seconds, the same on every machine; "
-        "default 10", bounded(1e-9, _INFINITY))
-    add(group, "time-limit", "SECONDS", "processor time an impact may take; 0 (default): 1, no limit with --elements, "
-        "--time-step or bem", bounded(0, _INFINITY))
-    for name, what, default in (("speed", "FAST above this normal speed over wave speed", 0.1),
-                                ("radius", "LARGE_CONTACT above this contact radius over radius", 0.1),
-                                ("displacement", "LONG_SLIDE above this slide over contact radius", 0.3),
-                                ("dundurs", "COUPLED above this constant of Dundurs", 0.1)):
-        add(group, f"{name}-limit", "RATIO", f"flag {what}; default {default}", bounded(0, _INFINITY))
+    for name, metavar, help, read in (
+            ("method", "NAME", "euler (default): the foundation of the paper; sync: fast and "
+             "precise, for tables and tolerances below 1e-3; cvode, cvode-bdf, cvode-adams: "
+             "adaptive order and step, with events (component cvode); bem, bem-paper: boundary "
+             "elements, an independent check (component bem)", read_method),
+            ("tolerance", "ERROR", "absolute error of ez and ex, in [1e-8, 0.1]; default 1e-3",
+             bounded(1e-8, 0.1)),
+            ("elements", "N", "elements over the largest contact radius, 4 to 1000000; default "
+             "chosen", bounded(4, 1e6, whole=True)),
+            ("time-step", "STEP", "in T, or in s with a material; > 0; default chosen; not with "
+             "sync", bounded(1e-300, 1e300)),
+            ("max-work", "SECONDS", "most work an impact may take, in nominal seconds, the same on "
+             "every machine; default 10", bounded(1e-9, INFINITY)),
+            ("time-limit", "SECONDS", "processor time an impact may take; 0 (default): 1, no limit "
+             "with --elements, --time-step or bem", bounded(0, INFINITY)),
+            ("speed-limit", "RATIO", "flag FAST above this normal speed over wave speed; default "
+             "0.1", bounded(0, INFINITY)),
+            ("radius-limit", "RATIO", "flag LARGE_CONTACT above this contact radius over radius; "
+             "default 0.1", bounded(0, INFINITY)),
+            ("displacement-limit", "RATIO", "flag LONG_SLIDE above this slide over contact radius; "
+             "default 0.3", bounded(0, INFINITY)),
+            ("dundurs-limit", "BETA", "flag COUPLED above this constant of Dundurs; default 0.1",
+             bounded(0, INFINITY))):
+        options.add(group, name, metavar, help, read)
 
 
-_SOLUTION = ("method", "tolerance", "elements", "time_step", "max_work", "time_limit", "speed_limit", "radius_limit",
-             "displacement_limit", "dundurs_limit")
+SOLUTION = ("method", "tolerance", "elements", "time_step", "max_work", "time_limit", "speed_limit",
+            "radius_limit", "displacement_limit", "dundurs_limit")
 
 
 def solution(arguments, **defaults):
-    """The keywords of `restitute.pair` that say how: what was given, else these defaults, else nothing."""
-    given = {name: getattr(arguments, name) for name in _SOLUTION if getattr(arguments, name) is not None}
-    return {**defaults, **given}
+    """The keywords of `restitute.pair` that say how: what was given, else these defaults."""
+    given = {name: getattr(arguments, name) for name in SOLUTION}
+    return {**defaults, **{name: value for name, value in given.items() if value is not None}}
 
 
 def read_method(text, place):
     """A method that this installation has."""
     from restitute._places import LIBRARIES
 
-    methods = {"euler": "core", "sync": "core", "cvode": "cvode", "cvode-bdf": "cvode", "cvode-adams": "cvode",
-               "bem": "bem", "bem-paper": "bem"}
-    built = [name for name, component in methods.items() if component in LIBRARIES]
+    needs = {"cvode": "SUNDIALS; Debian: libsundials-dev", "bem": "FFTW; Debian: libfftw3-dev"}
+    methods = {name: name.partition("-")[0] for name in (
+        "euler", "sync", "cvode", "cvode-bdf", "cvode-adams", "bem", "bem-paper")}
+    built = [name for name, part in methods.items() if part in LIBRARIES or part not in needs]
     if text in built:
         return text
-    among = f"must be among {', '.join(built)}"
+    among = f"must be among {', '.join(built)}{did_you_mean(text, built)}"
     if text in methods:
-        needs = {"cvode": "SUNDIALS; Debian: libsundials-dev", "bem": "FFTW; Debian: libfftw3-dev"}[methods[text]]
-        raise Refusal(f'{place} = "{text}": the component {methods[text]} is not in this build ({needs}); {among}')
-    raise Refusal(f'{place} = "{text[:64]}": is not in this build; {among}{did_you_mean(text, built)}')
+        part = methods[text]
+        raise Refusal(f'{place} = "{text}": the component {part} is not in this build '
+                      f"({needs[part]}); {among}")
+    raise Refusal(f'{place} = "{text[:64]}": is not in this build; {among}')
 
 
-# ------------------------------------------------------------------------------------- values to keywords
+# ----------------------------------------------------------------------------- values to keywords
 
 
 def values_of(arguments):
     """The values of an impact that the options give, by their names."""
     return {name: getattr(arguments, name) for name in (*FIELDS, *WORDS)
-            if getattr(arguments, name, None) not in (None, False)}
+            if arguments.given.get(name)}
 
 
 def place_of_options(arguments):
     """place(name): what the user calls a field on the command line."""
     return lambda name: arguments.given.get(name, "--" + name.replace("_", "-"))
-
-
-def place_of_columns(name):
-    """What the user calls a field in a table, if there is no older name for it there."""
-    return FIELDS[name].key if name in FIELDS else name
 
 
 def keywords(values, place):
@@ -232,7 +236,7 @@ def keywords(values, place):
     Parameters
     ----------
     values : dict
-        Numbers or arrays by the names of FIELDS, and those of WORDS. What is not given is not in it.
+        Numbers or arrays by the names of FIELDS, and those of WORDS; only what is given.
     place : callable
         place(name) is what the user calls a field.
 
@@ -243,11 +247,11 @@ def keywords(values, place):
     """
     physical = [name for name in values if name not in DIMENSIONLESS]
     if physical and len(physical) < len(values):
-        raise Refusal("dimensionless values (chi, psi, delta1, gamma, delta2) and values in SI units or a material are "
-                      "both given: use one kind")
+        raise Refusal("dimensionless values (chi, psi, delta1, gamma, delta2) and values in SI "
+                      "units or a material are both given: use one kind")
     if not values:
-        raise Refusal("no impact is described: give psi, delta1, gamma or a material, radius, speed; see restitute "
-                      "pair --help")
+        raise Refusal("no impact is described: give psi, delta1, gamma or a material, radius, "
+                      "speed; see restitute pair --help")
     return _scene(values, place) if physical else _impact(values, place)
 
 
@@ -257,24 +261,27 @@ def _missing(name, place):
 
 def _impact(values, place):
     """(25): delta2 = delta1 sqrt(gamma) gives whichever of the two is missing."""
-    if "psi" not in values:
-        raise _missing("psi", place)
     given = dict(values)
     delta2 = given.pop("delta2", None)
+    if "psi" not in given:
+        raise _missing("psi", place)
     if delta2 is None:
         if "gamma" not in given and _any(given.get("delta1", 0) > 0):
-            raise Refusal(f"{place('gamma')} is missing: delta1 > 0 needs gamma (0: Kelvin-Voigt) or delta2")
+            raise Refusal(f"{place('gamma')} is missing: delta1 > 0 needs gamma (0: Kelvin-Voigt) "
+                          "or delta2")
         if "gamma" in given and "delta1" not in given:
-            raise Refusal(f"{place('delta1')} is missing: {place('gamma')} needs delta1 (0: elastic) or delta2")
+            raise Refusal(f"{place('delta1')} is missing: {place('gamma')} needs delta1 "
+                          "(0: elastic) or delta2 beside it")
         return given
     if "delta1" in given and "gamma" in given:
         raise Refusal("delta1, gamma and delta2 are given: two of them determine the third")
-    other = "gamma" if "gamma" in given else "delta1"
-    if other not in given:
+    if "delta1" not in given and "gamma" not in given:
         raise Refusal("delta2 needs delta1 or gamma beside it")
+    other = "gamma" if "gamma" in given else "delta1"
     known = given[other]
-    if not _all((known > 0) & (known < _INFINITY)):
-        raise Refusal(f"{place(other)} = {_first_bad(known):.15g}: must be finite and > 0 beside delta2")
+    if _any((known <= 0) | (known == INFINITY)):
+        at = "" if hasattr(known, "shape") else f" = {known:.15g}"
+        raise Refusal(f"{place(other)}{at}: must be finite and > 0 beside delta2")
     if other == "gamma":
         given["delta1"] = delta2 / known ** 0.5
     else:
@@ -286,105 +293,85 @@ def _any(test):
     return test.any() if hasattr(test, "any") else test
 
 
-def _all(test):
-    return test.all() if hasattr(test, "all") else test
-
-
-def _first_bad(known):
-    return known if not hasattr(known, "shape") else known[~((known > 0) & (known < _INFINITY))][0]
-
-
 def _scene(values, place):
     for one, other in (("density", "mass"), ("density2", "mass2"), ("modulus1", "youngs_modulus"),
                        ("modulus1", "shore_a"), ("youngs_modulus", "shore_a")):
         if one in values and other in values:
-            raise Refusal(f"{place(one)} and {place(other)} are both given: one determines the other")
-    scene = {name: values[name] for name in BODIES if name in values}
+            raise Refusal(f"{place(one)} and {place(other)} are both given: one determines the "
+                          "other")
     material = solid(values, place)
     for name in ("radius", "speed", "friction"):
         if name not in values:
             raise _missing(name, place)
     partner = values.get("partner", "rigid")
-    own = {"rigid": None, "same": material}[partner] if partner in ("rigid", "same") else material_of(partner)
-    if own not in (None, material):
-        material_of_pair = _pair(material, own, values)
-    else:
-        material_of_pair = material
+    other = {"rigid": None, "same": material}.get(partner) or (
+        None if partner == "rigid" else material_of(partner, place("partner")))
+    scene = {name: values[name] for name in FIELDS if name in values and name not in SOLID}
     _complete(scene, "", material, place)
-    if "radius2" in scene and _all(scene["radius2"] < _INFINITY):
-        _complete(scene, "2", own, place)
-    else:
-        _refuse_partner_values(scene, place)
-    scene.update(material=material_of_pair, both_deform=partner == "same")
+    if "radius2" in scene and _any(scene["radius2"] < INFINITY):
+        _complete(scene, "2", other, place)
+    for name in ("mass2", "density2", "inertia2", "spin2"):
+        value = scene.get(name, 0)
+        if "radius2" not in scene and _any((value != 0) & (value != INFINITY)):
+            raise Refusal(f"{place(name)} needs a partner sphere, {place('radius2')}")
+    if other not in (None, material):
+        if "time_shift" in values:
+            raise Refusal(f"{place('partner')} = {partner}: the material must be a file without "
+                          f"{place('time_shift')}")
+        material = material.paired(other)
     if "rotation_blocked" in values:
         scene["rotation_blocked"] = values["rotation_blocked"]
-    return scene
+    return {**scene, "material": material, "both_deform": partner == "same"}
 
 
 def _complete(scene, body, material, place):
-    """The density of a body: of what is of a material that has one."""
+    """The density of a body is that of its material, if neither it nor the mass is given.
+
+    Against a rigid partner the sphere is what is of the material.
+    """
     mass, density = f"mass{body}", f"density{body}"
     if mass in scene or density in scene:
         return
     if material is None or not material.density > 0:
-        why = "" if material is None else " (its material has no density)"
+        why = "" if material is None else " (the material gives no density)"
         raise Refusal(f"{place(density)} or {place(mass)} is missing: must be > 0{why}")
     scene[density] = material.density
 
 
-def _refuse_partner_values(scene, place):
-    for name in ("mass2", "density2", "inertia2", "spin2"):
-        value = scene.get(name, 0)
-        if _any((value != 0) & (value != _INFINITY)) and "radius2" not in scene:
-            raise Refusal(f"{place(name)} = {value:.15g}: needs a partner sphere, {place('radius2')}")
-
-
-def _pair(material, partner, values):
-    import restitute
-
-    if "time_shift" in values:
-        raise Refusal(f"partner = {values['partner']}: the material must be a file without time_shift")
-    return restitute.Material.pair(material, partner)
-
-
-# ---------------------------------------------------------------------------------------------- materials
+# -------------------------------------------------------------------------------------- materials
 
 
 def _is_file(text):
-    return os.path.splitext(text)[1].lower() in (".json", ".csv")
+    return os.sep in text or os.path.splitext(text)[1].lower() in (".json", ".csv")
 
 
-def _names():
-    try:
-        from restitute.material import names
-    except ImportError:
-        return []
-    return names()
+def names():
+    """The materials that are known by name."""
+    from restitute import material
 
-
-def _is_known(text):
-    return text in _names()
+    return getattr(material, "names", list)()
 
 
 _read = {}
 
 
-def material_of(text):
+def material_of(text, place="--material"):
     """The material of a file or of a name, read once."""
     import restitute
 
     if text not in _read:
-        named = not _is_file(text) and os.sep not in text
-        if named and not _is_known(text):
-            raise Refusal(f'material = "{text[:64]}": must end in .json or .csv, or be a name of restitute materials'
-                          f"{did_you_mean(text, _names())}")
-        _read[text] = restitute.material(text) if named else restitute.Material.read(text)
+        if not _is_file(text) and text not in names():
+            raise Refusal(f'{place} = "{text[:64]}": must end in .json or .csv, or be a name of '
+                          f"restitute materials{did_you_mean(text, names())}")
+        _read[text] = (restitute.Material.read if _is_file(text) else restitute.material)(text)
     return _read[text]
 
 
 def shear_modulus(values):
-    """G1 in Pa of given values: itself, by Young's modulus, or by the hardness Shore A (Gent, Rubber Chemistry and
-    Technology 31, 1958)."""
+    """G1 in Pa: as given, by Young's modulus, or by the hardness Shore A.
+
+    Of the hardness by Gent, Rubber Chemistry and Technology 31 (1958), 896.
+    """
     young = values.get("youngs_modulus")
     if "shore_a" in values:
         shore = values["shore_a"]
@@ -395,32 +382,30 @@ def shear_modulus(values):
 
 
 def solid(values, place):
-    """The solid that single values describe, by a material or by numbers, its times shifted."""
-    import restitute
+    """The solid of single values, of a material or of numbers, its times shifted."""
+    from restitute import Material
 
     shift = values.get("time_shift", 1.0)
-    moduli = [name for name in SOLID if name in values and name != "time_shift"]
+    moduli = [name for name in SOLID[:-1] if name in values]
     if "material" in values:
         if moduli:
             raise Refusal(f"a material file and {place(moduli[0])} are both given: use one")
-        material = values["material"]
-        material = material_of(material) if isinstance(material, str) else material
+        material = material_of(values["material"], place("material"))
         return material if shift == 1 else material.shifted(shift)
     modulus1, modulus2 = shear_modulus(values), values.get("modulus2")
-    viscosity, ratio = values.get("viscosity"), values.get("poisson_ratio", 0.5)
     if modulus1 is None:
-        raise Refusal(f"{place('material')} is missing: a material file, .json or .csv, or a name (or "
-                      f"{listed([place(name) for name in ('modulus1', 'youngs_modulus', 'shore_a')])} and what belongs "
-                      "to it)")
-    if modulus2 is not None and viscosity is None:
+        raise Refusal(f"{place('material')} is missing: a material file, .json or .csv, or a name "
+                      f"(or {place('modulus1')} and what belongs to it)")
+    if modulus2 is not None and "viscosity" not in values:
         raise _missing("viscosity", place)
     if modulus1 == 0 and modulus2 is None:
         raise _missing("modulus2", place)
-    about = {"name": "Solid of given moduli"}
-    if viscosity is None:
-        return restitute.Material.elastic(modulus1, ratio, **about)
+    about = {"poisson_ratio": values.get("poisson_ratio", 0.5), "name": "Solid of given moduli"}
+    if "viscosity" not in values:
+        return Material.elastic(modulus1, **about)
+    viscosity = values["viscosity"] * shift
     if modulus1 == 0:
-        return restitute.Material.maxwell(modulus2, viscosity * shift, ratio, **about)
+        return Material.maxwell(modulus2, viscosity, **about)
     if modulus2 is None:
-        return restitute.Material.kelvin_voigt(modulus1, viscosity * shift, ratio, **about)
-    return restitute.Material.standard_solid(modulus1, modulus2, viscosity * shift, ratio, **about)
+        return Material.kelvin_voigt(modulus1, viscosity, **about)
+    return Material.standard_solid(modulus1, modulus2, viscosity, **about)
