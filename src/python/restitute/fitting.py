@@ -2,11 +2,14 @@
 """Constants of a material from measured impacts, or from storage and loss moduli (component fit, under the GPL)."""
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from restitute import _library, errors, impact
+from restitute import _library, errors
 from restitute._library import call, ffi
-from restitute.material import Material
+from restitute.materials import Material
+from restitute.scenes import Impacts
 
 __all__ = ["DmaFit", "DropFit", "fit_dma", "fit_drop_test"]
 
@@ -69,8 +72,7 @@ class DropFit(_Fit):
         """What the fitted solid gives for each point: arrays "ez", "ex", "contact_time" of shape (m,)."""
         if self._fitted is None:
             arrays = [np.empty(len(self.measured["ez"])) for _ in _MEASURED]
-            with self._fitter.signals():
-                call(_library.fit.restitute_fitter_values, self._fitter.handle, *map(_library.pointer, arrays))
+            self._fitter.call(_library.fit.restitute_fitter_values, self._fitter.handle, *map(_library.pointer, arrays))
             self._fitted = dict(zip(_MEASURED, arrays))
         return self._fitted
 
@@ -122,38 +124,31 @@ class DmaFit(_Fit):
 
 
 class _Fitter:
-    """A restitute_fitter, and Ctrl-C while it works: the library asks in this thread, so that signal handlers of
-    Python run there. Whatever they raise ends the call and is raised here."""
+    """A restitute_fitter, and Ctrl-C while it works: the library asks in this thread, so that Python runs handlers of
+    signals there. What they raise ends the call and is raised here."""
 
-    def __init__(self, options):
-        self.raised = None
+    def __init__(self, points, count, options, keep):
+        self._raised, self._keep = None, keep
         self._ask = ffi.callback("int(void *)", lambda _: 0, error=1, onerror=self._note)
         options.interrupted = self._ask
-
-    def _note(self, kind, value, trace):
-        self.raised = value
-
-    def create(self, count, points, options):
         handle = ffi.new("restitute_fitter **")
-        with self.signals():
-            call(_library.fit.restitute_fitter_create, count, points, options, handle)
+        self.call(_library.fit.restitute_fitter_create, count, points, options, handle)
         self.handle = ffi.gc(handle[0], _library.fit.restitute_fitter_destroy)
 
-    def signals(self):
-        return self
+    def _note(self, kind, value, trace):
+        self._raised = value
 
-    def __enter__(self):
-        self.raised = None
-
-    def __exit__(self, kind, value, trace):
-        if self.raised is not None:
-            raise self.raised
+    def call(self, function, *arguments):
+        self._raised = None
+        try:
+            call(function, *arguments)
+        except KeyboardInterrupt:
+            raise self._raised or KeyboardInterrupt from None
 
     def run(self, progress):
         done = ffi.new("double *")
         while done[0] < 1:
-            with self.signals():
-                call(_library.fit.restitute_fitter_run, self.handle, done)
+            self.call(_library.fit.restitute_fitter_run, self.handle, done)
             if progress:
                 progress(done[0])
 
@@ -162,7 +157,7 @@ def fit_drop_test(*, ez=np.nan, ex=np.nan, contact_time=np.nan, drop_height=None
                   rebound_ratio=None, temperature=np.nan, weight=None, sigma_ez=None, sigma_ex=None,
                   sigma_contact_time=None, model="standard_solid", terms=(), known=None, poisson_ratio=0.5,
                   loss="squares", confidence=0.95, reference_temperature=np.nan, wlf=None, starts=0, seed=1, threads=1,
-                  partner: Material | None = None, friction=None, progress=None, name="", **scene) -> DropFit:
+                  partner: Any = "rigid", friction=None, progress=None, name="", **scene) -> DropFit:
     """Fit the constants of a solid to measured impacts: some tenths of a second for twenty.
 
     Arrays broadcast; nan stands for what was not measured.
@@ -190,8 +185,8 @@ def fit_drop_test(*, ez=np.nan, ex=np.nan, contact_time=np.nan, drop_height=None
         As in `restitute_fit_options`; loss is "squares", "huber" or "cauchy".
     wlf : (float, float), optional
         C1 and C2 of the shifts.
-    partner : Material, optional
-        Of the other body, which is rigid without.
+    partner : "rigid", "same" or Material
+        Of the other body; "same": both are of the solid that is looked for.
     friction : array_like, optional
         By default it is fitted where ex was measured.
     progress : callable, optional
@@ -199,7 +194,8 @@ def fit_drop_test(*, ez=np.nan, ex=np.nan, contact_time=np.nan, drop_height=None
     name : str
         Of the material.
     **scene
-        As in `pair`: `radius`, `density` or `mass`, `speed`, `angle`, `both_deform`, ...
+        As in `pair`: `radius`, `density` or `mass`, `speed`, `angle`, ...; partner="same": both bodies are
+        of the solid.
 
     Returns
     -------
@@ -223,36 +219,138 @@ def fit_drop_test(*, ez=np.nan, ex=np.nan, contact_time=np.nan, drop_height=None
     >>> fit.names
     ['modulus1_pa', 'viscosity_pa_s']
     """
-    fit, nan = _library.fit, np.nan
-    speed, ez = heights(drop_height, rebound_height, rebound_ratio, scene.get("speed"), ez)
-    stand_in = Material.elastic(1.0, poisson_ratio)  # for the solid that is looked for
-    fitted_friction = np.where(np.isnan(ex), 0.0, nan) if friction is None else friction
-    records, shape = impact.scenes(stand_in, **{**scene, "speed": speed, "friction": np.where(np.isnan(
-        fitted_friction), 0.0, fitted_friction)})
-    columns = dict(ez=ez, ex=ex, contact_time=contact_time, temperature=temperature)
-    noise_known = any(sigma is not None for sigma in (sigma_ez, sigma_ex, sigma_contact_time))
-    if noise_known:
-        columns.update({f"sigma_{what}": nan if sigma is None else sigma for what, sigma in
-                        zip(_MEASURED, (sigma_ez, sigma_ex, sigma_contact_time))})
-    elif weight is not None:
-        deviation = 1 / np.sqrt(np.asarray(weight, float) / np.mean(weight))
-        columns.update(sigma_ez=deviation, sigma_ex=deviation, sigma_contact_time=deviation * contact_time)
-    shape = np.broadcast_shapes(shape, np.shape(fitted_friction), *(np.shape(one) for one in columns.values()))
-    records = np.broadcast_to(records.reshape(shape_of(records, shape)), shape).ravel()
-    records["friction"] = np.broadcast_to(fitted_friction, shape).ravel()
-    records["material"] = int(ffi.cast("uintptr_t", partner._handle)) if partner else 0
+    nan = np.nan
+    speed, ez = _heights(drop_height, rebound_height, rebound_ratio, scene.pop("speed", None), ez)
+    columns = {"ez": ez, "ex": ex, "contact_time": contact_time, "temperature": temperature}
+    sigmas = dict(zip(_MEASURED, (sigma_ez, sigma_ex, sigma_contact_time)))
+    noise_known = any(sigma is not None for sigma in sigmas.values())
+    if noise_known and weight is not None:
+        raise TypeError("weight and sigma_... are given: give one kind")
+    if weight is not None:
+        deviation = np.sqrt(np.mean(weight) / np.asarray(weight, float))
+        sigmas = {"ez": deviation, "ex": deviation, "contact_time": deviation * contact_time}
+    columns.update({f"sigma_{name}": sigma for name, sigma in sigmas.items() if sigma is not None})
+    if friction is None:
+        friction = np.where(np.isnan(ex), 0.0, nan)
+    # Arrays of one shape; the solid that is looked for has a stand-in.
+    shape = np.broadcast_shapes(np.shape(speed), np.shape(friction), *(np.shape(one) for one in columns.values()))
+    impacts = Impacts(Material.elastic(1.0, poisson_ratio), speed=np.broadcast_to(speed, shape),
+                      friction=np.where(np.isnan(friction), 0.0, friction),
+                      partner=partner if isinstance(partner, str) else "rigid", **scene)
+    if impacts.refused:
+        first = min(impacts.refused)
+        raise errors.DomainError(f"points[{first}]: {impacts.refused[first]}")
+    records = impacts.bound()
+    records["friction"] = np.broadcast_to(friction, impacts.shape).ravel()
+    records["material"] = partner.address if isinstance(partner, Material) else 0
     points = _library.structs("fit_point", len(records), "fit")
     for column, value in columns.items():
-        points[column] = np.broadcast_to(value, shape).ravel()
+        points[column] = np.broadcast_to(value, impacts.shape).ravel()
     points["scene"] = records.ctypes.data + records.itemsize * np.arange(len(records), dtype=np.uint64)
-    options, keep = _options(model, terms, known, wlf, poisson_ratio=poisson_ratio, loss=_one_of("loss", loss, LOSSES),
-                             confidence=confidence, reference_temperature=reference_temperature, starts=starts,
-                             seed=seed, threads=threads, noise_known=noise_known)
-    fitter = _Fitter(options)
-    fitter.create(len(points), _library.pointer(points, "restitute_fit_point[]"), options)
+    options, keep = _options(model, terms, known, wlf, poisson_ratio=poisson_ratio, confidence=confidence, loss=loss,
+                             reference_temperature=reference_temperature, starts=starts, seed=seed, threads=threads,
+                             noise_known=noise_known)
+    fitter = _Fitter(_library.pointer(points, "restitute_fit_point[]"), len(points), options, (keep, partner))
     fitter.run(progress)
     result = _library.struct("fit_result", "fit")
-    call(fit.restitute_fitter_result, fitter.handle, result)
-    measured = {column: points[column] for column in _MEASURED}
-    fitter.keep = (keep, partner)
+    call(_library.fit.restitute_fitter_result, fitter.handle, result)
+    measured = {column: points[column] for column in (*_MEASURED, "temperature")}
     return DropFit(result, model, fitter, {**measured, "normal_speed": records["normal_speed"]}, {"name": name})
+
+
+def _heights(drop, rebound, ratio, speed, ez):
+    """Speed and ez from heights of drop and rebound."""
+    given = [name for name, value in (("ez", ez), ("rebound_height", rebound), ("rebound_ratio", ratio))
+             if value is not None and not np.all(np.isnan(value))]
+    if len(given) > 1:
+        raise TypeError(f"{given[0]} and {given[1]} both give ez")
+    if (drop is None) == (speed is None):
+        raise TypeError("speed or drop_height, one of them, gives the speed")
+    if rebound is not None and drop is None:
+        raise TypeError("rebound_height needs drop_height")
+    if rebound is not None:
+        _check("rebound_height", rebound, 0, drop, "must be in [0, drop_height]")
+        ratio = np.divide(rebound, drop)
+    if ratio is not None:
+        _check("rebound_ratio", ratio, 0, 1, "must be in [0, 1]")
+        ez = np.sqrt(ratio)
+    return speed if drop is None else np.sqrt(2 * GRAVITY * np.asarray(drop, float)), ez
+
+
+def _check(name, values, low, high, words):
+    values, low, high = np.broadcast_arrays(np.asarray(values, float), low, high)
+    bad = np.flatnonzero((values < low) | (values > high))
+    if bad.size:
+        raise errors.DomainError(f"points[{bad[0]}].{name} = {values.flat[bad[0]]:.15g}: {words}")
+
+
+def _options(model, terms, known, wlf, loss, **members):
+    """restitute_fit_options, and the arrays that must live as long."""
+    for name, value, words in (("model", model, MODELS), ("loss", loss, LOSSES)):
+        if value not in words:
+            raise errors.DomainError(f"{name} = {value!r}: must be one of {', '.join(words)}")
+    terms = np.atleast_1d(np.asarray(terms, float))
+    if (model == "prony") != (terms.size > 0):
+        raise errors.DomainError("terms and model prony belong together")
+    names = [*MODELS[model], *(f"term{k + 1}" for k in range(terms.size))]
+    values = np.full(len(names), np.nan)
+    for name, value in (known or {}).items():
+        if name not in names:
+            raise errors.DomainError(f"known: {name!r} is no constant of this model: must be one of {', '.join(names)}")
+        values[names.index(name)] = value
+    keep = [_library.pointer(terms), _library.pointer(values)]
+    options = _library.struct("fit_options", "fit", model=1 + list(MODELS).index(model), loss=LOSSES.index(loss),
+                              terms=terms.size, relaxation_time=keep[0], known=keep[1], **members)
+    if wlf is not None:
+        options.wlf_c1, options.wlf_c2 = wlf
+    return options, keep
+
+
+def fit_dma(frequency, storage, loss, temperature=None, *, poisson_ratio=0.5, tension=False, noise=0.01,
+            reference_temperature=np.nan, wlf=None, name="") -> DmaFit:
+    """A Prony series, of as few terms as the data carry, from storage and loss moduli.
+
+    Parameters
+    ----------
+    frequency : array_like, shape (n,)
+        Hz; omega = 2 pi f.
+    storage, loss : array_like, shape (n,)
+        Pa, in shear, or with `tension` E' and E''.
+    temperature : array_like, shape (n,), optional
+        Curves of several are shifted into one.
+    noise : float
+        Relative standard deviation of the moduli, in [1e-4, 0.5].
+    reference_temperature : float
+        Where a_T = 1; default that of the first row.
+    wlf : (float, float), optional
+        C1 and C2; by default a free shift a temperature.
+
+    Returns
+    -------
+    DmaFit
+
+    Raises
+    ------
+    DomainError, MissingComponent
+        As `fit_drop_test`.
+    KeyboardInterrupt
+        By Ctrl-C, at once.
+
+    Examples
+    --------
+    >>> import numpy as np, restitute
+    >>> f = np.geomspace(0.1, 1000, 25)
+    >>> x = 2 * np.pi * f * 0.01
+    >>> fit_dma(f, 1e6 * x**2 / (1 + x**2), 1e6 * x / (1 + x**2)).relaxation_time.round(5)
+    array([0.01])
+    """
+    columns = [np.asarray(one, float) for one in (frequency, storage, loss) + (() if temperature is None else (temperature,))]
+    columns = [np.ascontiguousarray(one.ravel()) for one in np.broadcast_arrays(*columns)]
+    options = _library.struct("dma_options", "fit", poisson_ratio=poisson_ratio, tension=tension, noise=noise,
+                              reference_temperature=reference_temperature)
+    if wlf is not None:
+        options.wlf_c1, options.wlf_c2 = wlf
+    result = _library.struct("dma_result", "fit")
+    pointers = [*map(_library.pointer, columns), *([ffi.NULL] if temperature is None else [])]
+    _library.interruptible(_library.fit.restitute_dma_fit, columns[0].size, *pointers, options, result)
+    return DmaFit(result, {"name": name})

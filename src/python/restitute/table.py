@@ -3,21 +3,48 @@
 from __future__ import annotations
 
 import os
-from collections import namedtuple
+from concurrent.futures import ThreadPoolExecutor
 from types import SimpleNamespace
+from typing import Any, Callable, Sequence
 
 import numpy as np
 
 from restitute import _library, errors
 from restitute._library import call, ffi
+from restitute.executor import map_chunks
 from restitute.impact import LIMITS
 from restitute.materials import Material
 from restitute.scenes import Impacts
 
-__all__ = ["Table", "TableContact", "TablePair", "build_tables"]
+__all__ = ["Table", "TableContact", "TablePairs", "build_tables"]
 
-TablePair = namedtuple("TablePair", "ez ex")
-TablePair.__doc__ = "The pairs that a table gives: arrays of the shape of the speeds."
+
+class TablePairs:
+    """Pairs that a table gives; `ez, ex = table.pair(...)` takes them apart.
+
+    Attributes
+    ----------
+    ez, ex : ndarray
+        Of the broadcast shape of the speeds.
+    flags : ndarray of int or None
+        Which limits of the model are passed, see `Table.flags`; None for a contact that is not the
+        table's own.
+    """
+
+    def __init__(self, ez, ex, flags):
+        self.ez, self.ex, self._flags = ez, ex, flags
+
+    @property
+    def flags(self) -> Any:
+        return self._flags()
+
+    def __iter__(self):
+        return iter((self.ez, self.ex))
+
+    def __repr__(self):
+        return f"<restitute.TablePairs ez={self.ez}, ex={self.ex}>"
+
+
 _LIMITS = (("fast_speed", "not slow against shear waves from {:.4g} m/s on"),
            ("large_contact_speed", "contact not small against the sphere from {:.4g} m/s on"),
            ("long_slide_speed", "long slide at 45 degrees from {:.4g} m/s on"))
@@ -174,6 +201,11 @@ class Table:
         return Table.from_data, (self.data,)
 
     @property
+    def speed(self) -> tuple[float, float]:
+        """Lowest and highest normal speed, m/s."""
+        return self.info.speed
+
+    @property
     def material(self) -> Material:
         """The solid that the table is for."""
         data = self.data
@@ -210,7 +242,7 @@ class Table:
         call(_library.table.restitute_table_contact_set, self._handle, scene, struct)
         return TableContact(struct)
 
-    def pair(self, normal_speed, sliding_speed=0.0, contact: TableContact | None = None, *, check=True) -> TablePair:
+    def pair(self, normal_speed, sliding_speed=0.0, contact: TableContact | None = None, *, check=True) -> TablePairs:
         """The pairs of impacts.
 
         Parameters
@@ -227,8 +259,7 @@ class Table:
 
         Returns
         -------
-        TablePair
-            `ez`, `ex` of the broadcast shape.
+        TablePairs
         """
         normal, sliding, shape = _speeds(normal_speed, sliding_speed)
         ez, ex = np.empty(normal.size), np.empty(normal.size)
@@ -236,7 +267,8 @@ class Table:
              *map(_library.pointer, (normal, sliding, ez, ex)))
         if check:
             self._warn(normal, sliding, contact)
-        return TablePair(ez.reshape(shape)[()], ex.reshape(shape)[()])
+        return TablePairs(ez.reshape(shape)[()], ex.reshape(shape)[()],
+                          lambda: None if contact else self.flags(normal_speed, sliding_speed))
 
     def beyond(self, normal_speed, contact: TableContact | None = None):
         """Whether normal speeds (m/s, an array) are outside the range of the table, whose end is then taken."""
@@ -305,3 +337,52 @@ def _scene(material, contact):
     if impacts.refused:
         raise errors.DomainError(impacts.refused[0])
     return _library.pointer(impacts.bound(), "restitute_scene[]"), impacts
+
+
+def build_tables(materials: Sequence[Material], *, executor: Any = None, threads: int = 1, retries: int = 3,
+                 progress: Callable[[int, int], Any] | None = None, **keywords: Any) -> list[list[Table]]:
+    """The tables of all pairs of some materials: both bodies deform.
+
+    Parameters
+    ----------
+    materials : sequence of n Materials, names or paths
+    executor : concurrent.futures.Executor or distributed.Client, optional
+        Build there, a table a task; by default in `threads` threads. The tables have the same bits.
+    progress : callable
+        progress(tables done, of all).
+    **keywords
+        As of `Table.build`, without `partner`.
+
+    Returns
+    -------
+    list of n lists of n Tables
+        tables[i][j] is tables[j][i], of the materials i and j.
+
+    Raises
+    ------
+    DomainError, SolverError
+        The first failure; what is running then or at Ctrl-C ends within its `time_limit`.
+
+    Examples
+    --------
+    >>> import restitute
+    >>> soft, hard = restitute.Material.kelvin_voigt(1e6, 50.0), restitute.Material.elastic(1e7)
+    >>> tables = build_tables([soft, hard], radius=0.01, density=1000, radius2=0.01, density2=1000, friction=0.3,
+    ...                       speeds=(0.01, 1), tolerance=1e-2)
+    >>> tables[0][1] is tables[1][0], len(tables)
+    (True, 2)
+    """
+    pairs = [(i, j) for j in range(len(materials)) for i in range(j + 1)]
+    tasks = [(materials[i], "same" if i == j else materials[j], keywords) for i, j in pairs]
+    pool = ThreadPoolExecutor(threads) if executor is None else None
+    try:
+        built = dict(zip(pairs, map_chunks(_build_task, tasks, executor or pool, retries=retries, progress=progress)))
+    finally:
+        if pool:
+            pool.shutdown(wait=False)
+    return [[built[min(i, j), max(i, j)] for j in range(len(materials))] for i in range(len(materials))]
+
+
+def _build_task(task):
+    material, partner, keywords = task
+    return Table.build(material, partner=partner, **keywords)
