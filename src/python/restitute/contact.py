@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The contact force of soft-sphere DEM, for arrays of contacts."""
+
 from __future__ import annotations
 
-from collections import namedtuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -12,89 +13,90 @@ from restitute.materials import Material
 
 __all__ = ["ContactForces", "ContactLaw"]
 
-ContactForces = namedtuple("ContactForces", "normal tangential")
-ContactForces.__doc__ = """Forces on body 1, N: `normal`, shape (n,), along minus the normal; `tangential`, shape
-(n, 3). Body 2 gets the opposite."""
+
+class ContactForces(NamedTuple):
+    """Forces on body 1, N; body 2 gets the opposite."""
+
+    normal: np.ndarray  #: shape (n,), >= 0, along minus the normal
+    tangential: np.ndarray  #: shape (n, 3)
 
 
 class ContactLaw:
-    """A viscoelastic contact with friction and memory (docs/contact.md); immutable, and threads may share it.
+    """A viscoelastic contact with friction and memory (docs/contact.md).
 
-    The state of a contact is a row of an array, which the caller keeps from the first overlap until
+    The state of a contact is a row of an array. The caller keeps it from the first overlap until
     the bodies separate. The normal points from body 1 into body 2; relative motion is 1 minus 2.
+    A law is immutable, and threads may share it.
 
     Parameters
     ----------
     material : Material
     partner : "rigid" or "same"
         One body deforms, or both, of the material.
-    elements : int
-        8, 16, 24 or 32: the error falls with the square.
-    terms : int
-        Most Prony terms kept, 1 to 8. A material with more is reduced, for which `shortest` and
-        `longest` (s) must be given: the time step and the longest contact time of interest.
-    slip_cycles, frictionless, details : bool
-        See `restitute_contact_law_options` in contact.h.
+    **options
+        Members of `restitute_contact_law_options` (contact.h): `elements` (8, 16, 24 or 32; the
+        error falls with the square), `terms` (most Prony terms kept, 1 to 8; a material with more
+        needs `shortest` and `longest`, s), `slip_cycles`, `frictionless`, `details`.
 
     Raises
     ------
     DomainError
-        A value is out of its range; the reduced series misses more than half of G(t).
+        A value is out of its range, or the reduced series misses more than half of G(t).
+
+    Warns
+    -----
+    ToleranceWarning
+        The reduced series misses a fifth of G(t).
 
     Examples
     --------
-    A sphere of 1 mm bounces on a wall (velocity Verlet):
+    A sphere of 1 mm bounces on a wall (velocity Verlet), with the e_z of an impact:
 
-    >>> import numpy as np, restitute
+    >>> import restitute
     >>> rubber = restitute.Material.standard_solid(1e6, 3e6, 300.0)
     >>> law, mass, speed = restitute.ContactLaw(rubber), 5e-6, -0.1
-    >>> step, states, overlap, force = float(law.time_step_limit(mass, 1e-3, 0.1)), law.states(1), 0.0, 0.0
+    >>> step = law.time_step_limit(mass, 1e-3, 0.1)
+    >>> states, overlap, force = law.states(1), 0.0, 0.0
     >>> while overlap >= 0:
-    ...     half = speed + step / 2 * force / mass
-    ...     overlap -= step * half
-    ...     if overlap <= 0:
-    ...         break
-    ...     force = law.step(states, step, overlap=overlap, velocity=[0, 0, -half], radius=1e-3,
-    ...                      inverse_mass=1 / mass).normal[0]
-    ...     speed = half + step / 2 * force / mass
-    >>> pair = restitute.pair(rubber, radius=1e-3, mass=mass, friction=0.3, speed=0.1)
-    >>> bool(abs(speed / 0.1 - pair.ez) < 0.01)
+    ...     speed += step / 2 * force / mass
+    ...     overlap -= step * speed
+    ...     force = law.step(states, step, overlap=overlap, velocity=[0, 0, -speed],
+    ...                      radius=1e-3, inverse_mass=1 / mass).normal[0]
+    ...     speed += step / 2 * force / mass
+    >>> ez = restitute.pair(rubber, radius=1e-3, mass=mass, friction=0.3, speed=0.1).ez
+    >>> bool(abs(speed / 0.1 - ez) < 0.01)
     True
     """
 
-    def __init__(self, material: Material, *, partner="rigid", elements=8, terms=4, slip_cycles=False,
-                 shortest=0.0, longest=0.0, frictionless=False, details=False):
+    def __init__(self, material: Material, *, partner: str = "rigid", **options: Any):
         if partner not in ("rigid", "same"):
-            raise errors.DomainError(f"partner = {partner!r}: must be rigid or same; see Material.effective")
-        options = _library.struct("contact_law_options", "contact", deformable=2 if partner == "same" else 1,
-                                  elements=elements, terms=terms, slip_cycles=slip_cycles, shortest=shortest,
-                                  longest=longest, frictionless=frictionless, details=details)
+            raise errors.DomainError(f"partner = {partner!r}: must be rigid or same")
+        members = {"deformable": 2 if partner == "same" else 1, **options}
+        settings = _library.struct("contact_law_options", "contact", **members)
         handle = ffi.new("restitute_contact_law **")
-        status, message = call(_library.contact.restitute_contact_law_create, material._handle, options, handle)
-        self._handle = ffi.gc(handle[0], _library.contact.restitute_contact_law_destroy)
+        library = _library.contact
+        status, message = call(
+            library.restitute_contact_law_create, material._handle, settings, handle)
+        self._handle = ffi.gc(handle[0], library.restitute_contact_law_destroy)
+        self.state_size = library.restitute_contact_law_state_size(handle[0])
         if status:
             _library.warn(message, errors.ToleranceWarning)
-
-    @property
-    def state_size(self) -> int:
-        """Numbers of the state of a contact."""
-        return _library.contact.restitute_contact_law_state_size(self._handle)
-
-    @property
-    def hash(self) -> int:
-        """A number that two laws share if they are the same, for restart files."""
-        return _library.contact.restitute_contact_law_hash(self._handle)
 
     def states(self, count: int) -> np.ndarray:
         """States of new contacts, zeros of shape (count, state_size)."""
         return np.zeros((count, self.state_size))
 
-    def time_scale(self, mass, radius, speed) -> np.ndarray:
-        """Largest overlap over speed, s, of impacts of effective masses (kg) and radii (m) at normal speeds (m/s).
-        Arrays broadcast. An elastic impact lasts 2.943 of it."""
+    def time_scale(self, mass: Any, radius: Any, speed: Any) -> Any:
+        """Largest overlap over speed, s: an elastic impact lasts 2.943 of it.
+
+        Parameters
+        ----------
+        mass, radius, speed : array_like
+            Effective, kg and m; normal, m/s. They broadcast.
+        """
         return self._times(_library.contact.restitute_contact_time_scale, mass, radius, speed)
 
-    def time_step_limit(self, mass, radius, speed) -> np.ndarray:
+    def time_step_limit(self, mass: Any, radius: Any, speed: Any) -> Any:
         """Largest time step that is safe for such impacts, s: a fiftieth of the contact time."""
         return self._times(_library.contact.restitute_contact_time_step_limit, mass, radius, speed)
 
@@ -104,13 +106,15 @@ class ContactLaw:
         for place in np.ndindex(times.shape):
             call(function, self._handle, *(number[place] for number in numbers), one)
             times[place] = one[0]
-        return times
+        return times[()]
 
     def motions(self, count: int) -> np.ndarray:
-        """Records of `restitute_contact_motion`, shape (count,), at rest: to be filled in and given to `step`."""
+        """Records of `restitute_contact_motion`, shape (count,), at rest, to be filled in for
+        `step`."""
         return _library.structs("contact_motion", count, "contact")
 
-    def step(self, states, step, motions=None, *, rows=None, **members) -> ContactForces:
+    def step(self, states: np.ndarray, step: float, motions: np.ndarray | None = None, *,
+             rows: Any = None, **members: Any) -> ContactForces:
         """Advance contacts by a time step, their states in place.
 
         Parameters
@@ -118,82 +122,71 @@ class ContactLaw:
         states : ndarray of float, shape (n, state_size)
         step : float
             s.
-        motions : ndarray, optional
-            Of `motions`, shape (m,); by default a new one.
+        motions : ndarray, shape (m,), optional
+            Of `motions`; by default new ones.
         rows : array_like of int, shape (m,), optional
-            Which contacts; by default all. No row twice.
+            Which contacts, none twice; by default all.
         **members : array_like
-            What is written into `motions`, broadcast to shape (m,) or (m, 3): `overlap` (m, at the
-            end of the step), `normal`, `velocity` (m/s, of the surface of body 1 relative to that
-            of 2), `spin` (rad/s), `inverse_mass` and `inverse_tangential_mass` (1/kg), `radius`
-            (m), `friction`.
-
-        Returns
-        -------
-        ContactForces
+            Are written into `motions`, broadcast to (m,) or (m, 3): `overlap` (m, at the end of
+            the step), `normal`, `velocity` (m/s, of the surface of body 1 relative to that of 2,
+            mean of the step), `spin` (rad/s), `inverse_mass`, `inverse_tangential_mass` (1/kg),
+            `radius` (m, effective), `friction`.
 
         Raises
         ------
         DomainError
-            A contact failed: its state is untouched, all others have advanced. The exception has
-            the `index`, the `statuses` of all, and their `forces`.
+            A contact failed: its state is as it was, all others have advanced. The exception has
+            its `index`, the `statuses` of all and their `forces`.
         """
-        pointers = self._pointers(states, rows)
+        places = self._places(states, rows)
         if motions is None:
-            motions = self.motions(len(pointers))
-        elif len(motions) != len(pointers):
-            raise errors.DomainError(f"motions: {len(motions)} are given, must be {len(pointers)}, one a contact")
+            motions = self.motions(len(places))
+        elif len(motions) != len(places):
+            raise errors.DomainError(f"motions: {len(motions)} are given, must be {len(places)}")
         for name, value in members.items():
-            if name not in motions.dtype.names[1:]:
-                raise TypeError(f"step() has no '{name}': {', '.join(motions.dtype.names[1:])}")
             motions[name] = value
         rates = _library.struct("contact_rates", "contact")
         call(_library.contact.restitute_contact_rates_set, self._handle, step, rates)
-        forces = np.zeros(len(pointers), _library.array_type("contact_force"))
-        statuses = np.zeros(len(pointers), np.int32)
-        out = ContactForces(forces["normal"], forces["tangential"])
+        records = np.zeros(len(places), _library.array_type("contact_force"))
+        statuses = np.zeros(len(places), np.int32)
+        forces = ContactForces(records["normal"], records["tangential"])
         try:
-            call(_library.contact.restitute_contact_step_many, self._handle, rates, len(pointers),
-                 _library.pointer(motions, "restitute_contact_motion[]"), _library.pointer(pointers, "double *[]"),
-                 _library.pointer(forces, "restitute_contact_force[]"), _library.pointer(statuses))
+            call(_library.contact.restitute_contact_step_many, self._handle, rates, len(places),
+                 _library.pointer(motions, "restitute_contact_motion[]"),
+                 _library.pointer(places, "double *[]"),
+                 _library.pointer(records, "restitute_contact_force[]"),
+                 _library.pointer(statuses))
         except errors.Error as problem:
-            problem.statuses, problem.forces = statuses, out
-            problem.index = int(np.argmax(statuses < 0)) if (statuses < 0).any() else None
+            problem.index = int(np.argmax(statuses < 0)) if np.any(statuses < 0) else None
+            problem.statuses, problem.forces = statuses, forces  # type: ignore[attr-defined]
             raise
-        return out
+        return forces
 
-    def _pointers(self, states, rows=None):
-        """Where the states are, as an array of pointers."""
-        size = self.state_size
-        if not (isinstance(states, np.ndarray) and states.dtype == float and states.flags.c_contiguous
-                and states.flags.writeable and states.shape[1:] == (size,)):
-            raise errors.DomainError(f"states: must be a writable, contiguous array of float of shape (n, {size})")
+    def _places(self, states, rows=None):
+        """Where the states are: an array of pointers."""
+        if not (isinstance(states, np.ndarray) and states.dtype == float
+                and states.flags.c_contiguous and states.flags.writeable
+                and states.shape[1:] == (self.state_size,)):
+            raise errors.DomainError("states: must be a contiguous array of float that can be "
+                                     f"written, of shape (n, {self.state_size})")
         if rows is None:
             rows = np.arange(len(states))
         else:
             rows = np.asarray(rows, np.intp).ravel()
             if rows.size and not 0 <= rows.min() <= rows.max() < len(states):
-                raise errors.DomainError(f"rows = {rows.min()} to {rows.max()}: must be in [0, {len(states) - 1}]")
+                raise errors.DomainError(
+                    f"rows = {rows.min()} to {rows.max()}: must be in [0, {len(states) - 1}]")
             if np.bincount(rows).max(initial=0) > 1:
                 raise errors.DomainError("rows: a contact is given twice")
-        return states.ctypes.data + rows.astype(np.uint64) * np.uint64(8 * size)
+        return states.ctypes.data + rows.astype(np.uint64) * np.uint64(states.strides[0])
 
-    def _each(self, function, states, *more):
-        """Call function(law, more of a row, state, error) for each state; arrays of more are (n,) or (n, 3)."""
-        for k, address in enumerate(self._pointers(states)):
-            call(function, self._handle, *(one[k] for one in more[:-1]), ffi.cast("double *", int(address)),
-                 *more[-1][k])
-
-    def peek(self, states, normal=(0, 0, 1)) -> ContactForces:
-        """The forces of the last step again, without advancing; `normal` (3,) or (n, 3), unit vectors of now."""
-        forces = np.zeros(len(states), _library.array_type("contact_force"))
-        where = _library.pointer(forces, "restitute_contact_force[]")
-        self._each(_library.contact.restitute_contact_peek, states, _vectors(normal, len(states)),
-                   [(where + k,) for k in range(len(states))])
-        return ContactForces(forces["normal"], forces["tangential"])
-
-    def details(self, states, radius) -> np.ndarray:
+    def details(self, states: np.ndarray, radius: Any) -> np.ndarray:
         """What contacts have done since they began; of a law made with `details`.
+
+        Parameters
+        ----------
+        radius : array_like
+            Effective, m; broadcast to (n,).
 
         Returns
         -------
@@ -203,29 +196,8 @@ class ContactLaw:
         """
         records = _library.structs("contact_details", len(states), "contact")
         where = _library.pointer(records, "restitute_contact_details[]")
-        self._each(_library.contact.restitute_contact_details_get, states, np.broadcast_to(radius, len(states)),
-                   [(where + k,) for k in range(len(states))])
+        radii = np.broadcast_to(radius, len(states))
+        for k, place in enumerate(self._places(states)):
+            call(_library.contact.restitute_contact_details_get, self._handle, radii[k],
+                 ffi.cast("double *", int(place)), where + k)
         return records
-
-    def turn(self, states, before, after) -> None:
-        """Turn the memory of contacts whose normal jumps; `before`, `after` (3,) or (n, 3), unit vectors."""
-        count = len(states)
-        self._each(_library.contact.restitute_contact_turn, states, _vectors(before, count), _vectors(after, count),
-                   [()] * count)
-
-    def series(self) -> dict:
-        """The Prony series that the law computes with: `equilibrium_modulus` (Pa), `parallel_viscosity` (Pa s),
-        `relaxation_time` (s) and `modulus` (Pa), arrays, and `error_bound`, relative, of a reduced series."""
-        out = [ffi.new("double *"), ffi.new("double *"), ffi.new("size_t *"), ffi.new("double[8]"),
-               ffi.new("double[8]"), ffi.new("double *")]
-        call(_library.contact.restitute_contact_law_series, self._handle, *out)
-        count = out[2][0]
-        return {"equilibrium_modulus": out[0][0], "parallel_viscosity": out[1][0],
-                "relaxation_time": np.array(list(out[3])[:count]), "modulus": np.array(list(out[4])[:count]),
-                "error_bound": out[5][0]}
-
-
-def _vectors(vectors, count):
-    """`count` vectors for C."""
-    array = np.ascontiguousarray(np.broadcast_to(np.asarray(vectors, float), (count, 3)))
-    return [ffi.from_buffer("double[]", one) for one in array]
