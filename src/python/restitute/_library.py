@@ -145,16 +145,20 @@ def members(value):
     return found
 
 
-def interruptible(function, *arguments):
-    """`call` in a thread of its own, so that Ctrl-C ends the wait at once. The call itself goes on to its end."""
+def interruptible(function, *arguments, keep=None):
+    """`call` in a thread of its own, so that Ctrl-C ends the wait at once.
+
+    The call itself goes on to its end. Until then `keep` lives, what its pointers lead to.
+    """
     outcome = queue.SimpleQueue()
 
-    def run():
+    def run(keep):
         try:
             outcome.put(call(function, *arguments))
         except BaseException as problem:  # handed over to the caller's thread
             outcome.put(problem)
-    threading.Thread(target=run, daemon=True).start()
+
+    threading.Thread(target=run, args=(keep,), daemon=True).start()
     found = outcome.get()
     if isinstance(found, BaseException):
         raise found

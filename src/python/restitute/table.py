@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tables of restitution pairs: some ten nanoseconds a pair, with a verified error."""
+
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from types import SimpleNamespace
-from typing import Any, Callable, Sequence
+from typing import Any, Callable
 
 import numpy as np
 
@@ -18,36 +20,9 @@ from restitute.scenes import Impacts
 
 __all__ = ["Table", "TableContact", "TablePairs", "build_tables"]
 
-
-class TablePairs:
-    """Pairs that a table gives; `ez, ex = table.pair(...)` takes them apart.
-
-    Attributes
-    ----------
-    ez, ex : ndarray
-        Of the broadcast shape of the speeds.
-    flags : ndarray of int or None
-        Which limits of the model are passed, see `Table.flags`; None for a contact that is not the
-        table's own.
-    """
-
-    def __init__(self, ez, ex, flags):
-        self.ez, self.ex, self._flags = ez, ex, flags
-
-    @property
-    def flags(self) -> Any:
-        return self._flags()
-
-    def __iter__(self):
-        return iter((self.ez, self.ex))
-
-    def __repr__(self):
-        return f"<restitute.TablePairs ez={self.ez}, ex={self.ex}>"
-
-
-_LIMITS = (("fast_speed", "not slow against shear waves from {:.4g} m/s on"),
-           ("large_contact_speed", "contact not small against the sphere from {:.4g} m/s on"),
-           ("long_slide_speed", "long slide at 45 degrees from {:.4g} m/s on"))
+_FROM = (("fast_speed", "not slow against shear waves from {:.4g} m/s on"),
+         ("large_contact_speed", "contact not small against the sphere from {:.4g} m/s on"),
+         ("long_slide_speed", "long slide at 45 degrees from {:.4g} m/s on"))
 
 
 class TableContact:
@@ -61,140 +36,164 @@ class TableContact:
         Effective ones, m and kg.
     """
 
-    def __init__(self, struct):
-        self._struct = struct
-        self.__dict__.update(_library.members(struct))
+    def __init__(self, struct: Any):
+        self.struct = struct
+        self.speed_factor, self.psi_factor = struct.speed_factor, struct.psi_factor
+        self.radius, self.mass = struct.radius, struct.mass
+
+
+class TablePairs:
+    """Pairs from a table. `ez, ex = table.pair(...)` takes them apart.
+
+    Attributes
+    ----------
+    ez, ex : ndarray
+        Of the broadcast shape of the speeds.
+    """
+
+    def __init__(self, ez: Any, ex: Any, flags: Callable[[], Any]):
+        self.ez, self.ex, self._flags = ez, ex, flags
+
+    @property
+    def flags(self) -> Any:
+        """Which limits of the model are passed (`Table.flags`); None for a contact that is not
+        the table's own."""
+        return self._flags()
+
+    def __iter__(self):
+        return iter((self.ez, self.ex))
+
+    def __repr__(self):
+        return f"<restitute.TablePairs ez={self.ez}, ex={self.ex}>"
 
 
 class Table:
     """Restitution pairs of one contact over normal and sliding speed.
 
-    Made by `Table.build` or `Table.load`; immutable; threads may share it. It can be pickled.
+    Made by `Table.build` or `Table.load`; immutable. Threads may share it, and it can be pickled.
 
     Attributes
     ----------
     info : types.SimpleNamespace
-        What the table says of itself, the members of the library's `restitute_table_info`: `speed`
-        (m/s, the range covered), `error_ez` and `error_ex` (verified), `tolerance`, `chi`,
-        `friction`, `radius`, `mass`, `fast_speed`, `large_contact_speed`, ...
+        The members of the library's `restitute_table_info`: `speed` (m/s, the range), `error_ez`
+        and `error_ex` (verified), `tolerance`, `chi`, `friction`, `radius`, `mass`,
+        `fast_speed`, `large_contact_speed`, `long_slide_speed`, `rebound_speed`, ...
+
+    Examples
+    --------
+    >>> import restitute
+    >>> rubber = restitute.Material.standard_solid(1e6, 3e6, 300.0)
+    >>> table = Table.build(rubber, radius=0.001, density=1200, friction=0.3,
+    ...                     speeds=(0.01, 0.1), tolerance=1e-3)
+    >>> ez, ex = table.pair([0.02, 0.05], 0.01)
+    >>> small = table.contact(radius=0.0008, density=1200, friction=0.5)
+    >>> print(table.pair(0.02, 0.01, small).ez.round(2))
+    0.59
     """
 
-    def __init__(self, handle):
+    def __init__(self, handle: Any):
         self._handle = ffi.gc(handle, _library.table.restitute_table_destroy)
         struct = _library.struct("table_info", "table")
         call(_library.table.restitute_table_describe, self._handle, struct)
         self.info = SimpleNamespace(**_library.members(struct))
-        self._data = None
+        self._data: dict[str, Any] = {}
 
     @classmethod
-    def build(cls, material: Material, *, speeds=(1e-4, 100.0), tolerance=1e-5, threads=1, max_impacts=None,
-              time_limit=None, speed_limit=None, radius_limit=None, displacement_limit=None, **contact) -> Table:
+    def build(cls, material: Any, *, speeds: Any = (1e-4, 100.0), tolerance: float = 1e-5,
+              threads: int = 1, max_impacts: int | None = None, time_limit: float | None = None,
+              speed_limit: float | None = None, radius_limit: float | None = None,
+              displacement_limit: float | None = None, **contact: Any) -> Table:
         """Build a table of one contact: hundredths of a second to seconds.
 
         Parameters
         ----------
-        material : Material
-            What deforms.
+        material : Material, name or path
         speeds : float or (float, float)
             Lowest and highest normal speed, m/s.
         tolerance : float
-            Largest absolute error of ez and ex, in [1e-7, 0.1]. A table that misses it warns
-            (`ToleranceWarning`) and states its errors.
+            Largest absolute error of ez and ex, in [1e-7, 0.1].
         threads : int
-            The table has the same bits for all; 0: as many as there are.
-        max_impacts : int, optional
-            Refinement ends at 0.8 of so many impacts; default 12000.
-        time_limit : float, optional
-            It ends likewise at 0.8 of so many seconds; default 20; inf: no limit.
+            The table has the same bits for any; 0: as many as there are.
+        max_impacts, time_limit : int and float (s), optional
+            Refinement ends at 0.8 of them; default 12000 and 20. inf: no limit of time.
         speed_limit, radius_limit, displacement_limit : float, optional
-            Limits of the model, as in `pair`.
+            Limits of the model.
         **contact
             As in `pair`: `radius`, `density` or `mass`, `friction`, `radius2`, `partner`, ...
 
         Raises
         ------
-        DomainError
-            A value is out of its range, which the text names.
-        SolverError
-            `max_impacts` is too small for any table.
+        DomainError, SolverError
+            A value is out of its range; `max_impacts` is too small for any table.
         KeyboardInterrupt
             By Ctrl-C, at once.
 
-        Examples
-        --------
-        >>> import restitute
-        >>> rubber = restitute.Material.standard_solid(1e6, 3e6, 300.0)
-        >>> table = restitute.Table.build(rubber, radius=0.001, density=1200, friction=0.3,
-        ...                               speeds=(0.01, 0.1), tolerance=1e-3)
-        >>> table.pair([0.02, 0.05], 0.03).ez.shape
-        (2,)
+        Warns
+        -----
+        ToleranceWarning
+            The verified error is above the tolerance.
         """
         options = _library.struct("table_options", "table", threads=threads, tolerance=tolerance)
         options.speed = [float(speed) for speed in np.broadcast_to(speeds, 2)]
-        for name, value in (("max_impacts", max_impacts), ("time_limit", time_limit), ("speed_limit", speed_limit),
-                            ("radius_limit", radius_limit), ("displacement_limit", displacement_limit)):
+        for name, value in (("max_impacts", max_impacts), ("time_limit", time_limit),
+                            ("speed_limit", speed_limit), ("radius_limit", radius_limit),
+                            ("displacement_limit", displacement_limit)):
             if value is not None:
                 setattr(options, name, value)
         handle = ffi.new("restitute_table **")
-        scene, _impacts = _scene(material, contact)
-        status, message = _library.interruptible(_library.table.restitute_table_build, scene, options, handle)
+        scene, kept = _scene(material, contact)
+        function = _library.table.restitute_table_build
+        status, message = _library.interruptible(function, scene, options, handle, keep=kept)
         if status:
             _library.warn(message, errors.ToleranceWarning)
         return cls(handle[0])
 
     @classmethod
     def load(cls, path: str | os.PathLike) -> Table:
-        """A table from its HDF5 file (the layout is that of table_files.h).
+        """A table from its HDF5 file; table_files.h says how it is laid out.
 
         Raises
         ------
         FileError, FormatError
-            It cannot be read; it is no table, damaged, or of another schema.
+            It cannot be read; it is no table, or damaged.
         """
         handle = ffi.new("restitute_table **")
         call(_library.table_files.restitute_table_read, _library.string(path), handle)
         return cls(handle[0])
 
     def save(self, path: str | os.PathLike) -> None:
-        """Write the table into an HDF5 file, whole or not at all.
-
-        Raises
-        ------
-        FileError
-            It cannot be written; what was there stays.
-        """
+        """Write the table into an HDF5 file, whole or not at all (`FileError`)."""
         call(_library.table_files.restitute_table_write, self._handle, _library.string(path))
 
     @classmethod
-    def from_data(cls, data: dict) -> Table:
-        """A table of the numbers that `data` gave."""
-        struct = _library.struct("table_data", "table")
-        arrays = []
+    def from_data(cls, data: dict[str, Any]) -> Table:
+        """A table of the numbers that `data` gives."""
+        struct, kept = _library.struct("table_data", "table"), []
         for name, value in data.items():
             if isinstance(value, np.ndarray):
-                arrays.append(np.ascontiguousarray(value, float))
-                value = _library.pointer(arrays[-1].ravel())
+                kept.append(_library.pointer(np.ascontiguousarray(value, float).ravel()))
+                value = kept[-1]
             setattr(struct, name, value.encode() if isinstance(value, str) else value)
         handle = ffi.new("restitute_table **")
         call(_library.table.restitute_table_create, struct, handle)
         return cls(handle[0])
 
     @property
-    def data(self) -> dict:
-        """All numbers of the table, the members of the library's `restitute_table_data`: `speed` (n,), `ez` (n, 2),
-        `ex` (n, places of psi, 4), `strain` (n, 3), ... (table.h says what they are)."""
-        if self._data is None:
+    def data(self) -> dict[str, Any]:
+        """All numbers of the table, the members of the library's `restitute_table_data`: `speed`
+        (n,), `ez` (n, 2), `ex` (n, places of psi, 4), `strain` (n, 3), ..."""
+        if not self._data:
             struct = _library.struct("table_data", "table")
             call(_library.table.restitute_table_data_get, self._handle, struct)
-            data = _library.members(struct)
             n, places = struct.speeds, struct.stick_cells + struct.slip_cells + 2
-            shapes = {"relaxation_time": (struct.terms,), "modulus": (struct.terms,), "speed": (n,), "ez": (n, 2),
-                      "strain": (n, 3), "ex": (n, places, 4)}
+            shapes: dict[str, tuple[int, ...]] = {
+                "relaxation_time": (struct.terms,), "modulus": (struct.terms,), "speed": (n,),
+                "ez": (n, 2), "strain": (n, 3), "ex": (n, places, 4)}
+            self._data = _library.members(struct)
             for name, shape in shapes.items():
-                size = int(np.prod(shape))
-                values = ffi.buffer(getattr(struct, name), 8 * size) if size else b""
-                data[name] = np.frombuffer(values, float).reshape(shape).copy()
-            self._data = data
+                values = np.empty(shape)
+                ffi.memmove(ffi.from_buffer(values), getattr(struct, name), values.nbytes)
+                self._data[name] = values
         return self._data
 
     def __reduce__(self):
@@ -208,25 +207,26 @@ class Table:
     @property
     def material(self) -> Material:
         """The solid that the table is for."""
-        data = self.data
-        return Material.prony(data["relaxation_time"], data["modulus"], data["equilibrium_modulus"],
-                              data["parallel_viscosity"], data["poisson_ratio"])
+        names = ("relaxation_time", "modulus", "equilibrium_modulus", "parallel_viscosity",
+                 "poisson_ratio")
+        return Material.prony(*(self.data[name] for name in names))
 
     @property
     def limits(self) -> list[str]:
         """Which limits of the model are passed, and from which speed on, in words."""
-        said = [text.format(getattr(self.info, name)) for name, text in _LIMITS if np.isfinite(getattr(self.info, name))]
         rebound = self.info.rebound_speed
-        return ([f"no rebound up to {rebound:.4g} m/s"] if rebound > 0 else []) + said
+        words = [f"no rebound up to {rebound:.4g} m/s"] if rebound > 0 else []
+        return words + [text.format(getattr(self.info, name)) for name, text in _FROM
+                        if np.isfinite(getattr(self.info, name))]
 
-    def contact(self, material: Material | None = None, *, touch_gap: float = 1e-6, **contact) -> TableContact:
-        """Another contact of this table: other sizes of solid spheres, other friction, the material at another
-        temperature.
+    def contact(self, material: Any = None, *, touch_gap: float = 1e-6,
+                **contact: Any) -> TableContact:
+        """Another contact of this table: solid spheres of other sizes, another friction.
 
         Parameters
         ----------
         material : Material, optional
-            That of the table (the default), or it with all times or all moduli times one factor.
+            That of the table (default), or with all times and all moduli times a factor each.
         touch_gap : float
             For `collide`: how far apart, over the radii, bodies still touch; in [0, 1].
         **contact
@@ -238,87 +238,97 @@ class Table:
             The table does not serve it.
         """
         struct = _library.struct("table_contact", "table", touch_gap=touch_gap)
-        scene, _impacts = _scene(material or self.material, contact)
+        scene, _kept = _scene(material or self.material, contact)
         call(_library.table.restitute_table_contact_set, self._handle, scene, struct)
         return TableContact(struct)
 
-    def pair(self, normal_speed, sliding_speed=0.0, contact: TableContact | None = None, *, check=True) -> TablePairs:
+    def pair(self, normal_speed: Any, sliding_speed: Any = 0.0,
+             contact: TableContact | None = None, *, check: bool = True) -> TablePairs:
         """The pairs of impacts.
 
         Parameters
         ----------
         normal_speed : array_like
-            m/s, approaching, in [0, 1e100]. Beyond the range of the table its end is taken.
+            m/s, approaching, in [0, 1e100]. Beyond the range its end is taken.
         sliding_speed : array_like
-            m/s, of the contact point, spin included; broadcast against `normal_speed`.
+            m/s, of the contact point, spin included. Both broadcast.
         contact : TableContact, optional
             By default the table's own.
         check : bool
-            Warn (`ModelLimitWarning`) how many speeds are beyond the range or beyond the limits of
-            the model, which takes longer than the look-up.
+            Count what is beyond the range and the limits, which takes longer than the look-up.
 
-        Returns
-        -------
-        TablePairs
+        Raises
+        ------
+        DomainError
+            The first speed that is out of its range.
+
+        Warns
+        -----
+        ModelLimitWarning
+            How many speeds are beyond the range of the table, or beyond a limit of the model.
         """
         normal, sliding, shape = _speeds(normal_speed, sliding_speed)
         ez, ex = np.empty(normal.size), np.empty(normal.size)
-        call(_library.table.restitute_table_pair_many, self._handle, contact._struct if contact else ffi.NULL, ez.size,
+        call(_library.table.restitute_table_pair_many, self._handle, _struct(contact), ez.size,
              *map(_library.pointer, (normal, sliding, ez, ex)))
         if check:
             self._warn(normal, sliding, contact)
         return TablePairs(ez.reshape(shape)[()], ex.reshape(shape)[()],
                           lambda: None if contact else self.flags(normal_speed, sliding_speed))
 
-    def beyond(self, normal_speed, contact: TableContact | None = None):
-        """Whether normal speeds (m/s, an array) are outside the range of the table, whose end is then taken."""
-        low, high = self.info.speed
+    def beyond(self, normal_speed: Any, contact: TableContact | None = None) -> Any:
+        """Whether normal speeds (m/s) are outside the range, whose end is then taken."""
+        low, high = self.speed
         speed = np.asarray(normal_speed, float) * (contact.speed_factor if contact else 1)
         if self.info.speeds <= 2 and low < high:  # e_z is the same at all speeds
             return np.zeros(speed.shape, bool)[()]
         return (speed < low) | (speed > high)
 
-    def flags(self, normal_speed, sliding_speed=0.0):
+    def flags(self, normal_speed: Any, sliding_speed: Any = 0.0) -> Any:
         """Which limits of the model impacts of the table's own contact pass.
 
         Returns
         -------
         ndarray of int
-            Bits of `restitute_flag`: FAST, LARGE_CONTACT, LONG_SLIDE. Outside the range those of
-            its ends.
+            Bits as in `restitute.impact.LIMITS`. Outside the range those of its ends.
         """
-        core, data = _library.core, self.data
-        normal, sliding, shape = _speeds(normal_speed, sliding_speed)
-        place = np.clip(normal, data["low"], data["high"])
+        data, (normal, sliding, shape) = self.data, _speeds(normal_speed, sliding_speed)
         nodes, strain = data["speed"], data["strain"]
+        place = np.clip(normal, data["low"], data["high"])
         i = np.clip(np.searchsorted(nodes, place, "right") - 1, 0, len(nodes) - 2)
-        with np.errstate(all="ignore"):
+        with np.errstate(all="ignore"):  # ratios are powers of the speed between nodes
             u = np.log(place / nodes[i]) / np.log(nodes[i + 1] / nodes[i])
             low, high = strain[i].T, strain[i + 1].T
-            at = np.where((low > 0) & np.isfinite(high), low * (high / low) ** u, np.maximum(low, high))
-            slide = at[2] * np.abs(sliding) > data["displacement_limit"] * normal
-        return ((at[0] > data["speed_limit"]) * core.RESTITUTE_FLAG_FAST
-                | (at[1] > data["radius_limit"]) * core.RESTITUTE_FLAG_LARGE_CONTACT
-                | slide * core.RESTITUTE_FLAG_LONG_SLIDE).reshape(shape)[()]
+            powers = (low > 0) & np.isfinite(high)
+            at = np.where(powers, low * (high / low) ** u, np.maximum(low, high))
+            passed = (at[0] > data["speed_limit"], at[1] > data["radius_limit"],
+                      at[2] * np.abs(sliding) > data["displacement_limit"] * normal)
+        return sum(bit * hit for (bit, *_), hit in zip(LIMITS, passed)).reshape(shape)[()]
 
     def _warn(self, normal, sliding, contact):
         outside = int(np.count_nonzero(self.beyond(normal, contact)))
-        low, high = self.info.speed
         if outside:
-            _library.warn(f"{outside} of {normal.size} normal speeds are outside the table's range, {low:.6g} to "
-                          f"{high:.6g} m/s, whose ends are taken", errors.ModelLimitWarning)
+            low, high = self.speed
+            _library.warn(f"{outside} of {normal.size} normal speeds are outside the table's "
+                          f"range, {low:.6g} to {high:.6g} m/s, whose ends are taken",
+                          errors.ModelLimitWarning)
         if contact:
-            return  # the limits in the table are those of its own contact
+            return  # the table knows the limits of its own contact alone
         flags = self.flags(normal, sliding)
         for bit, _, option, _, words in LIMITS:
             count = int(np.count_nonzero(flags & bit))
             if count:
-                _library.warn(f"{count} of {flags.size} impacts: {words.format(self.data[option])}",
-                              errors.ModelLimitWarning)
+                _library.warn(f"{count} of {flags.size} impacts: "
+                              f"{words.format(self.data[option])}", errors.ModelLimitWarning)
 
     def __repr__(self):
-        low, high = self.info.speed
-        return f"<restitute.Table {low:.4g} to {high:.4g} m/s, errors {self.info.error_ez:.1g}, {self.info.error_ex:.1g}>"
+        low, high = self.speed
+        return (f"<restitute.Table {low:.4g} to {high:.4g} m/s, errors {self.info.error_ez:.1g}, "
+                f"{self.info.error_ex:.1g}>")
+
+
+def _struct(contact):
+    return contact.struct if contact else ffi.NULL
 
 
 def _speeds(normal, sliding):
@@ -328,26 +338,27 @@ def _speeds(normal, sliding):
 
 
 def _scene(material, contact):
-    """The one contact of these keywords: an array of one restitute_scene, and what must outlive it."""
+    """The one contact of these keywords: a restitute_scene, and what must outlive it."""
     if "speed" not in contact and "normal_speed" not in contact:
         contact = {**contact, "speed": 1.0}  # the library does not use it
     impacts = Impacts(material, **contact)
     if impacts.kind != "scene" or impacts.shape:
-        raise errors.DomainError("a table is of one contact in SI units, not of arrays, nor of chi and psi")
+        raise errors.DomainError("a table is of one contact in SI units, not of arrays or chi")
     if impacts.refused:
         raise errors.DomainError(impacts.refused[0])
     return _library.pointer(impacts.bound(), "restitute_scene[]"), impacts
 
 
-def build_tables(materials: Sequence[Material], *, executor: Any = None, threads: int = 1, retries: int = 3,
-                 progress: Callable[[int, int], Any] | None = None, **keywords: Any) -> list[list[Table]]:
+def build_tables(materials: Sequence[Any], *, executor: Any = None, threads: int = 1,
+                 retries: int = 3, progress: Callable[[int, int], Any] | None = None,
+                 **keywords: Any) -> list[list[Table]]:
     """The tables of all pairs of some materials: both bodies deform.
 
     Parameters
     ----------
     materials : sequence of n Materials, names or paths
     executor : concurrent.futures.Executor or distributed.Client, optional
-        Build there, a table a task; by default in `threads` threads. The tables have the same bits.
+        Build there, a table a task; by default in `threads` threads. The bits are the same.
     progress : callable
         progress(tables done, of all).
     **keywords
@@ -361,26 +372,28 @@ def build_tables(materials: Sequence[Material], *, executor: Any = None, threads
     Raises
     ------
     DomainError, SolverError
-        The first failure; what is running then or at Ctrl-C ends within its `time_limit`.
+        The first failure. What runs then, or at Ctrl-C, ends within its `time_limit`.
 
     Examples
     --------
     >>> import restitute
-    >>> soft, hard = restitute.Material.kelvin_voigt(1e6, 50.0), restitute.Material.elastic(1e7)
-    >>> tables = build_tables([soft, hard], radius=0.01, density=1000, radius2=0.01, density2=1000, friction=0.3,
+    >>> rubber, glass = restitute.Material.kelvin_voigt(1e6, 50.0), restitute.Material.elastic(1e7)
+    >>> tables = build_tables([rubber, glass], radius=0.01, density=1000, friction=0.3,
     ...                       speeds=(0.01, 1), tolerance=1e-2)
     >>> tables[0][1] is tables[1][0], len(tables)
     (True, 2)
     """
     pairs = [(i, j) for j in range(len(materials)) for i in range(j + 1)]
     tasks = [(materials[i], "same" if i == j else materials[j], keywords) for i, j in pairs]
-    pool = ThreadPoolExecutor(threads) if executor is None else None
+    pool = None if executor else ThreadPoolExecutor(threads)
     try:
-        built = dict(zip(pairs, map_chunks(_build_task, tasks, executor or pool, retries=retries, progress=progress)))
+        built = dict(zip(pairs, map_chunks(_build_task, tasks, executor or pool, retries=retries,
+                                           progress=progress)))
     finally:
         if pool:
             pool.shutdown(wait=False)
-    return [[built[min(i, j), max(i, j)] for j in range(len(materials))] for i in range(len(materials))]
+    count = range(len(materials))
+    return [[built[min(i, j), max(i, j)] for j in count] for i in count]
 
 
 def _build_task(task):
