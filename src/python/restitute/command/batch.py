@@ -166,8 +166,8 @@ class _Batch:
                 took = time.monotonic() - since
                 size = 2 * size if took < wanted / 2 else max(threads, size // 2) \
                     if took > 2 * wanted else size
-        with interrupts.held():
-            self._write()
+        interrupts.holding = True  # it is not worth stopping any more
+        self._write()
 
     _failures = 0
 
@@ -246,8 +246,11 @@ class _Batch:
         options.need("matplotlib", "--figure")
         from restitute import plot
 
+        columns = self._columns()
         try:
-            return plot.grid_axes(self._columns(), self.arguments.contours)
+            if self.cases.source and all(len(np.unique(of)) < 2 for of in columns.values()):
+                raise ValueError("no columns vary: must be one or two")
+            return plot.grid_axes(columns, self.arguments.contours, not self.cases.source)
         except ValueError as why:
             option = "--" if str(why).startswith("contours") else "--figure: "
             raise Refusal(f"{option}{why}") from None
@@ -287,15 +290,18 @@ def _check_options(arguments):
 def _impacts(rows, values, place, status):
     """Impacts that give the same fields: the rows among them that can be described, and
     `restitute.scenes.Impacts`. Why others cannot goes into `status`."""
+    def described(values):
+        return problem.impacts(problem.keywords(values, place), place)
+
     try:
-        return [(rows, problem.impacts(values, place))]
+        return [(rows, described(values))]
     except Refusal as why:
         reason = str(why)
     good = []
     for i, row in enumerate(rows):
         try:
-            problem.impacts({name: value[i] if np.ndim(value) else value
-                             for name, value in values.items()}, place)
+            described({name: value[i] if np.ndim(value) else value
+                       for name, value in values.items()})
             good.append(i)
         except Refusal as why:
             status[row] = str(why)
@@ -303,7 +309,7 @@ def _impacts(rows, values, place, status):
         return []
     try:
         some = {name: value[good] if np.ndim(value) else value for name, value in values.items()}
-        return [(rows[good], problem.impacts(some, place))]
+        return [(rows[good], described(some))]
     except Refusal:
         status[rows[good]] = reason
         return []

@@ -10,7 +10,6 @@ from restitute.command import options, problem, provenance
 from restitute.command.options import Refusal
 from restitute.errors import Error
 
-_NUMBER = re.compile(options.NUMBER, re.A).fullmatch
 _DIGITS = b"0123456789+-.eE\n"
 RESULTS = ("ez", "ex", "contact_time", "max_indentation", "error_ez", "error_ex", "method",
            "status")
@@ -132,7 +131,7 @@ def numbers(texts, read):
     other = "\n".join(texts).encode("utf-8", "surrogateescape").translate(None, _DIGITS)
     try:
         values = np.array([float(text) for text in texts] if not other else
-                          [float(text) if _NUMBER(text) else np.nan for text in texts])
+                          [float(text) if options.NUMBER.fullmatch(text) else np.nan for text in texts])
     except ValueError:
         values = np.full(len(texts), np.nan)
     reasons = {}
@@ -242,7 +241,8 @@ class Cases:
             else:
                 self.known[name] = i
         try:
-            problem.impacts({**given, **self._examples(given)}, self.place)
+            values = problem.keywords({**given, **self._examples(given)}, self.place)
+            problem.impacts(values, self.place)
         except Refusal as why:
             raise Refusal(f"{source}: {why}") from None
         return other
