@@ -9,7 +9,10 @@ Every component is loaded when it is first named: `core`, `cvode`, `table`, `tab
 `files`, `contact`, `fit`.
 """
 import os
+import queue
+import re
 import sys
+import threading
 import warnings
 
 from restitute import errors
@@ -30,7 +33,8 @@ def __getattr__(name):
 def _load(component):
     path = LIBRARIES.get(component)
     if path is None:
-        raise errors.MissingComponent(f"the component {component} is not installed with this package")
+        raise errors.MissingComponent(f"the component {component} is not installed with this "
+                                      "package")
     if component != "core":
         __getattr__("core")  # first, so that the component finds it loaded
     return ffi.dlopen(os.path.join(os.path.dirname(__file__), path))
@@ -44,6 +48,13 @@ def available(component):
 def text(chars):
     """A string of C."""
     return ffi.string(chars).decode("utf-8", "replace")
+
+
+def message_of(error):
+    """The words of a restitute_error, with numbers as short as they can be: 0.6 for
+    0.59999999999999998."""
+    long_number = r"(?<=[ \[(-])\d+\.\d{14,}(e[-+]\d+)?(?=[]:,;) ]|$)"
+    return re.sub(long_number, lambda match: repr(float(match[0])), text(error.message))
 
 
 def string(value):
@@ -76,7 +87,7 @@ def call(function, *arguments):
     """
     error = ffi.new("restitute_error *")
     status = function(*arguments, error)
-    message = text(error.message)
+    message = message_of(error)
     if status < 0:
         raise exception(status, message or text(core.restitute_status_text(status)))
     return status, message
@@ -129,6 +140,38 @@ def pointer(array, kind=None):
     """The memory of a contiguous array for C; `kind` as in "restitute_scene[]", by default its dtype."""
     kind = kind or {"f8": "double[]", "i4": "int[]", "i8": "int64_t[]"}[array.dtype.str[1:]]
     return ffi.from_buffer(kind, array)
+
+
+def members(value):
+    """The members of a struct as a dict: numbers, tuples of them, texts. Pointers are left out."""
+    found = {}
+    for name, field in ffi.typeof(value[0]).fields:
+        member, kind = getattr(value, name), field.type
+        if kind.kind == "array":
+            found[name] = text(member) if kind.item.cname == "char" else tuple(member)
+        elif kind.kind == "primitive" and name != "struct_size":
+            found[name] = member
+    return found
+
+
+def interruptible(function, *arguments, keep=None):
+    """`call` in a thread of its own, so that Ctrl-C ends the wait at once.
+
+    The call itself goes on to its end. Until then `keep` lives, what its pointers lead to.
+    """
+    outcome = queue.SimpleQueue()
+
+    def run(keep):
+        try:
+            outcome.put(call(function, *arguments))
+        except BaseException as problem:  # handed over to the caller's thread
+            outcome.put(problem)
+
+    threading.Thread(target=run, args=(keep,), daemon=True).start()
+    found = outcome.get()
+    if isinstance(found, BaseException):
+        raise found
+    return found
 
 
 def warn(message, category):
