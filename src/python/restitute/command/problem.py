@@ -305,11 +305,17 @@ def _complete(given, place):
     for name in ("radius", "speed", "friction"):
         if name not in given:
             raise _missing(name, place)
-    words = given["material"], given.get("partner", "rigid")
-    if words == (str(words[0]), "rigid") and not given.keys() & {"density", "mass"}:
-        density = material_of(words[0]).density
-        if density > 0:
+    material = given["material"]
+    if not given.keys() & {"density", "mass"} and isinstance(material, str):
+        density = material_of(material).density
+        if density > 0 and given.get("partner", "rigid") == "rigid":
             given["density"] = density
+    elif not given.keys() & {"density", "mass"} and isinstance(material[0], str):
+        density = [material_of(name).density for name in material]
+        if not all(value > 0 for value in density):  # of one of the rows
+            raise Refusal(f"{place('density')} or {place('mass')} is missing: must be > 0 (the "
+                          "material gives no density)")
+        given["density"] = density
 
 
 def _missing(name, place):
