@@ -1,14 +1,13 @@
-/* The paper's algorithm, (5), (8)-(17), as published: positions first, then the forces of all elements, the inner
- * displacements by backward Euler, velocities last; fixed step, fixed elements. Every element is stepped in both
- * directions in every step, (12),(13) outside of the contact. In slip the force has the sign of the force of the step
- * before (16), which is none for an element that slips in its first step: such an element bears no force until it has
- * stuck once.
+/* The paper's algorithm, (5), (8)-(17), as published: positions first, then the forces of all
+ * elements, the inner displacements by backward Euler, velocities last; fixed step, fixed elements.
+ * Every element is stepped in both directions in every step, (12),(13) outside of the contact. In
+ * slip the force has the sign of the force of the step before (16), which is none for an element
+ * that slips in its first step: such an element bears no force until it has stuck once.
  *
- * In dimensionless form, f = G_inf u + sum g_k w_k + eta u' and w_k' = u' - w_k/tau_k, an element that moves by du has
- * the force
+ * In dimensionless form, f = G_inf u + sum g_k w_k + eta u' and w_k' = u' - w_k/tau_k, an element
+ * that moves by du has the force
  *
  *     f = b + s du,   b = G_inf u + sum g_k w_k/(1 + h/tau_k),   s = G_inf + eta/h + sum g_k/(1 + h/tau_k).
- *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "paper.h"
 
@@ -25,8 +24,6 @@ struct foundation {
     double *tangential;
     double *force;   /* f_x of the step before */
     double *profile; /* X^2 (8) */
-    int trial_sign;
-    int64_t sticking;
 };
 
 struct sphere {
@@ -44,8 +41,7 @@ static int foundation_make(const struct paper_problem *problem, const struct pap
                            struct foundation *f)
 {
     const size_t n = (size_t)settings->elements, terms = problem->n_terms;
-    *f = (struct foundation){
-        .problem = problem, .n_elements = n, .stride = 1 + terms, .trial_sign = settings->trial_sign};
+    *f = (struct foundation){.problem = problem, .n_elements = n, .stride = 1 + terms};
     f->kept = calloc(terms + 2 * n + 2 * n * f->stride, sizeof *f->kept);
     if (!f->kept) return 1;
     f->force = f->kept + terms;
@@ -91,18 +87,14 @@ static void step_element(struct foundation *f, size_t i, double depth, double sh
     double *z = f->normal + i * f->stride, *x = f->tangential + i * f->stride;
     const double rest_z = force_at_rest(f, z), rest_x = force_at_rest(f, x);
     const double press = depth - f->profile[i] - z[0], fz = rest_z + f->stiffness * press;
-    if (fz <=
-        0) { /* the free surface lies below the profile: no contact, or no longer; it relaxes without force (12),(13) */
+    if (fz <= 0) { /* the free surface lies below the profile: it relaxes without force (12),(13) */
         move(f, -rest_z / f->stiffness, z);
         move(f, -rest_x / f->stiffness, x);
         f->force[i] = 0;
         return;
     }
     double fx = rest_x + f->stiffness * shear;
-    if (fabs(fx) > fz)
-        fx = sign_of(f->trial_sign ? fx : f->force[i]) * fz; /* (14)-(16) */
-    else
-        f->sticking++;
+    if (fabs(fx) > fz) fx = sign_of(f->force[i]) * fz; /* (14)-(16) */
     move(f, press, z);
     move(f, (fx - rest_x) / f->stiffness, x); /* the whole shear in stick, what the force allows in slip (17) */
     f->force[i] = fx;
@@ -132,8 +124,9 @@ static double advance(enum paper_motion motion, double h, double velocity, doubl
     }
 }
 
-/* One step; returns the number of elements in contact. The force is zero at first touch and after the contact, so
- * Verlet goes through the same positions as Euler with half a step's velocity, and ends with the same velocity. */
+/* One step; returns the number of elements in contact. The force is zero at first touch and after
+ * the contact, so Verlet goes through the same positions as Euler with half a step's velocity, and
+ * ends with the same velocity. */
 static size_t step_sphere(struct foundation *f, const struct paper_settings *settings, struct sphere *s)
 {
     const double h = settings->step, half = settings->motion == PAPER_VERLET ? 0.5 * h * h : 0;
@@ -147,22 +140,18 @@ static size_t step_sphere(struct foundation *f, const struct paper_settings *set
     return sum.touching;
 }
 
-enum paper_end paper_solve(const struct paper_problem *problem, const struct paper_settings *settings,
-                           struct paper_result *result)
+enum paper_end paper_solve(const struct paper_problem *problem, const struct paper_settings *settings, double *ez,
+                           double *ex, int64_t *steps)
 {
     struct foundation f;
     struct sphere s = {.velocity = 1, .shear_velocity = problem->psi};
     enum paper_end end = PAPER_UNSTABLE;
-    int64_t steps = 0;
     if (foundation_make(problem, settings, &f)) return PAPER_NO_MEMORY;
-    while (end == PAPER_UNSTABLE && steps < settings->max_steps && isfinite(s.velocity + s.shear_velocity)) {
-        const size_t touching = step_sphere(&f, settings, &s);
-        steps++;
-        if (touching == 0 && s.velocity < 0) end = PAPER_SEPARATED;
-    }
+    for (*steps = 0; end == PAPER_UNSTABLE && *steps < settings->max_steps && isfinite(s.velocity + s.shear_velocity);
+         ++*steps)
+        if (step_sphere(&f, settings, &s) == 0 && s.velocity < 0) end = PAPER_SEPARATED;
     free(f.kept);
-    if (end == PAPER_SEPARATED)
-        *result = (struct paper_result){-s.velocity, -s.shear_velocity / problem->psi, steps,
-                                        steps * settings->elements * (int64_t)(1 + problem->n_terms), f.sticking};
+    *ez = -s.velocity;
+    *ex = -s.shear_velocity / problem->psi;
     return end;
 }
