@@ -12,8 +12,10 @@
 set -eu
 
 run_packages="cmake ninja-build gcc gfortran libc6-dev pkg-config libpopt-dev libjansson-dev libcsv-dev libsundials-dev
-    libhdf5-dev libfftw3-dev libgsl-dev gnuplot-nox"
-test_packages="g++ libcmocka-dev liggghts libliggghts-dev locales mandoc mpi-default-dev python3 python3-h5py python3-venv valgrind"
+    libhdf5-dev libfftw3-dev libgsl-dev gnuplot-nox python3 python3-cffi python3-h5py python3-matplotlib python3-numpy
+    python3-tqdm"
+test_packages="g++ libcmocka-dev liggghts libliggghts-dev locales mandoc mpi-default-dev mypy python3-distributed
+    python3-mpi4py python3-pytest python3-venv valgrind"
 case "${1-run}" in
 run) packages=$run_packages ;;
 test) packages="$run_packages $test_packages" ;;

@@ -1,0 +1,411 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What describes an impact: one table for options, columns and JSON keys, and the way from given
+values to the keywords of `restitute.pair`.
+
+A field has one name everywhere: the option `--speed`, the keyword `speed`, and with its unit the
+column and JSON key `speed_m_s`. Older names are accepted.
+"""
+import os
+import re
+
+from restitute.command import options
+from restitute.command.options import Refusal, bounded, did_you_mean, number, read_number
+
+INFINITY = float("inf")
+_SUFFIXES = {"1": "", "m": "_m", "kg/m^3": "_kg_m3", "kg": "_kg", "kg m^2": "_kg_m2", "m/s": "_m_s",
+             "deg": "_deg", "rad/s": "_rad_s", "Pa": "_pa", "Pa s": "_pa_s"}
+# name older-name | unit | range | what the numbers at its ends mean | help
+_TABLE = """
+chi | 1 | [1/3, 1000] | | (1-nu)/(2-nu) (1 + m R^2/J); default 7/6, a solid incompressible sphere
+psi | 1 | [0, 1e12] | | (2-2nu)/(2-nu) |tangential velocity of the contact point| /
+    (friction * normal velocity); 0: no slip; required
+delta1 | 1 | [0, 1e12] | | eta sqrt(a_el/(G1 m (1-nu))); default 0: elastic
+gamma | 1 | [0, inf] | inf: elastic | G1/G2; 0: Kelvin-Voigt, inf: elastic; required if delta1 > 0
+delta2 | 1 | (0, 1e12] | | delta1 sqrt(gamma); instead of gamma or of delta1
+modulus1 modulus | Pa | [0, inf) | | instead of --material: shear modulus G1 of a standard solid,
+    Pa; 0: Maxwell; alone: elastic
+youngs_modulus | Pa | (0, inf) | | instead of --modulus1: E = 2 (1+nu) G1, Pa
+shore_a | 1 | [20, 90] | | instead of --modulus1: hardness Shore A, S, of which Gent (1958) makes
+    E = 0.0981 MPa (56 + 7.62336 S)/(0.137505 (254 - 2.54 S)); a guide only
+modulus2 | Pa | (0, inf) | | G2, Pa, in series with the dashpot; without it Kelvin-Voigt
+viscosity | Pa s | (0, inf) | | eta of the dashpot, Pa s
+poisson_ratio poisson | 1 | [0, 0.5] | | Poisson's ratio of that solid; default 0.5
+time_shift | 1 | (0, inf) | | a_T: relaxation times and viscosity are multiplied by it, as by a
+    change of temperature; default 1
+radius radius1 | m | (0, inf) | | radius of the sphere, m; required
+density density1 | kg/m^3 | (0, inf) | | density of the sphere, kg/m^3; this or --mass; default that
+    of its material
+mass mass1 | kg | (0, inf) | | mass of the sphere, kg
+inertia inertia1 | kg m^2 | (0, inf) | | moment of inertia, kg m^2; default solid, 2/5 m R^2
+radius2 | m | (0, inf] | inf: a wall | radius of the partner, m; default inf: a wall
+density2 | kg/m^3 | (0, inf] | inf: held fast | density of the partner sphere, kg/m^3; this or
+    --mass2; default that of its material
+mass2 | kg | (0, inf] | inf: held fast | mass of the partner sphere, kg; inf: held fast
+inertia2 | kg m^2 | (0, inf) | | its moment of inertia, kg m^2; default solid
+speed velocity | m/s | (0, inf) | | speed of the sphere's centre relative to the partner, m/s;
+    required
+angle | deg | [0, 90) | | angle between the velocity and the normal, degrees; default 0
+spin spin1 | rad/s | (-inf, inf) | | spin of the sphere, rad/s; positive spin adds to the sliding
+    velocity v sin(angle) + R1 spin + R2 spin2, backspin is negative; default 0
+spin2 | rad/s | (-inf, inf) | | spin of the partner sphere, rad/s, of the same sign; default 0
+friction | 1 | [0, inf] | inf: no slip | coefficient of friction; inf: no slip; required
+"""
+
+
+class Field:
+    """A number of an impact.
+
+    Attributes
+    ----------
+    name, key, option : str
+        `speed`, `speed_m_s`, `--speed`.
+    older : list of str
+        Names that are accepted too.
+    unit, allowed, help : str
+        `allowed` is the range in words.
+    """
+
+    def __init__(self, row):
+        cells = re.split(r" ?\| ?", " ".join(row.split()), maxsplit=4)
+        names, self.unit, ends, special, help = cells
+        self.name, *self.older = names.split()
+        self.key, self.option = self.name + _SUFFIXES[self.unit], "--" + self.name.replace("_", "-")
+        low, high = ends[1:-1].split(", ")
+        self.low, self.high = number(low), number(high)
+        self.with_low, self.with_high = ends[0] == "[", ends[-1] == "]"
+        words = f"in {ends}" if high != "inf" else "finite" if low != "0" else \
+            f"{'>=' if self.with_low else '>'} 0"
+        if high == "inf" and low == "0" and not self.with_high:
+            words = f"finite and {words}"
+        self.allowed = f"must be {words}" + (f" ({special})" if special else "")
+        self.help = help if words == "finite" or "inf" in ends else f"{help}; in {ends}"
+
+    def fits(self, value):
+        """Whether a number, or each of an array, lies in the range."""
+        above = value >= self.low if self.with_low else value > self.low
+        return above & (value <= self.high if self.with_high else value < self.high)
+
+    def read(self, text, place):
+        """The number from its text, or a Refusal."""
+        return read_number(text, place, self.allowed, self.fits)
+
+
+FIELDS = {field.name: field for field in map(Field, re.split(r"\n(?! )", _TABLE.strip()))}
+DIMENSIONLESS = ("chi", "psi", "delta1", "gamma", "delta2")
+SOLID = ("modulus1", "youngs_modulus", "shore_a", "modulus2", "viscosity", "poisson_ratio",
+         "time_shift")
+SI = tuple(name for name in FIELDS if name not in DIMENSIONLESS)
+WORDS = ("material", "partner", "rotation_blocked")  # columns that are no numbers
+# What a row must have; an empty cell of another column means that it is not given.
+NEVER_EMPTY = (*DIMENSIONLESS, "radius", "speed", "angle", "friction")
+_BY_COLUMN = {(name + _SUFFIXES[field.unit]).casefold(): field
+              for field in FIELDS.values() for name in (field.name, *field.older)}
+
+
+def field_of_column(column):
+    """The field that a column or JSON key means, by its name or an older one; None if none."""
+    return _BY_COLUMN.get(column.casefold())
+
+
+def similar_column(column):
+    """"; did you mean ...?" for a column that resembles a known one, e.g. without unit; or ""."""
+    plain = column.casefold().replace("-", "_")
+    for field in FIELDS.values():
+        if plain in (field.name, *field.older):
+            return f"; did you mean {field.key}?"
+    return did_you_mean(column, [*(field.key for field in FIELDS.values()), *WORDS])
+
+
+def read_partner(text, place):
+    """rigid, same, or what names the partner's own material."""
+    if text in ("rigid", "same") or _is_file(text) or text in names():
+        return text
+    raise Refusal(f'{place} = "{text[:64]}": must be rigid, same or a material file, .json or '
+                  f".csv, or a name{did_you_mean(text, ['rigid', 'same', *names()])}")
+
+
+def read_switch(text, place):
+    """0 or 1."""
+    if text not in ("0", "1"):
+        raise Refusal(f'{place} = "{text[:64]}": must be 0 or 1')
+    return text == "1"
+
+
+# ---------------------------------------------------------------------------------------- options
+
+
+def add_fields(group, fields):
+    """Options of the fields of these names."""
+    for field in map(FIELDS.get, fields):
+        options.add(group, field.option[2:], "NUMBER", field.help, field.read, also=field.older)
+
+
+def add_scene(parser, skip=()):
+    """Options of an impact in SI units, without the fields `skip`."""
+    group = parser.add_argument_group(
+        "An impact in SI units, a sphere against a wall or a second sphere")
+    options.add(group, "material", "FILE|NAME", "what deforms: a material file, .json, or .csv "
+                "with tau_s,G_Pa, or a name of restitute materials; this or --modulus1")
+    add_fields(group, [name for name in SI if name not in skip])
+    options.add(group, "partner", "rigid|same|FILE|NAME", "rigid: one of the two bodies deforms "
+                "(default); same: both do, and are of the material; else the material of the "
+                "partner, if it is another one", read_partner)
+    options.add_flag(group, "rotation-blocked", "the spheres cannot rotate")
+
+
+def add_impact(parser):
+    """Options of an impact, dimensionless or in SI units."""
+    add_fields(parser.add_argument_group("An impact in dimensionless numbers"), DIMENSIONLESS)
+    add_scene(parser)
+
+
+def add_solution(parser):
+    """Options that say how impacts are solved."""
+    group = parser.add_argument_group("How it is solved")
+    for name, metavar, help, read in (
+            ("method", "NAME", "euler (default): the foundation of the paper; sync: fast and "
+             "precise, for tables and tolerances below 1e-3; cvode, cvode-bdf, cvode-adams: "
+             "adaptive order and step, with events (component cvode); bem, bem-paper: boundary "
+             "elements, an independent check (component bem)", read_method),
+            ("tolerance", "ERROR", "absolute error of ez and ex, in [1e-8, 0.1]; default 1e-3",
+             bounded(1e-8, 0.1)),
+            ("elements", "N", "elements over the largest contact radius, 4 to 1000000; default "
+             "chosen", bounded(4, 1e6, whole=True)),
+            ("time-step", "STEP", "in T, or in s with a material; > 0; default chosen; not with "
+             "sync", bounded(1e-300, 1e300)),
+            ("max-work", "SECONDS", "most work an impact may take, in nominal seconds, the same on "
+             "every machine; default 10", bounded(1e-9, INFINITY)),
+            ("time-limit", "SECONDS", "processor time an impact may take; 0 (default): 1, no limit "
+             "with --elements, --time-step or bem", bounded(0, INFINITY)),
+            ("speed-limit", "RATIO", "flag FAST above this normal speed over wave speed; default "
+             "0.1", bounded(0, INFINITY)),
+            ("radius-limit", "RATIO", "flag LARGE_CONTACT above this contact radius over radius; "
+             "default 0.1", bounded(0, INFINITY)),
+            ("displacement-limit", "RATIO", "flag LONG_SLIDE above this slide over contact radius; "
+             "default 0.3", bounded(0, INFINITY)),
+            ("dundurs-limit", "BETA", "flag COUPLED above this constant of Dundurs; default 0.1",
+             bounded(0, INFINITY))):
+        options.add(group, name, metavar, help, read)
+
+
+SOLUTION = ("method", "tolerance", "elements", "time_step", "max_work", "time_limit", "speed_limit",
+            "radius_limit", "displacement_limit", "dundurs_limit")
+
+
+def solution(arguments, **defaults):
+    """The keywords of `restitute.pair` that say how: what was given, else these defaults."""
+    given = {name: getattr(arguments, name) for name in SOLUTION}
+    return {**defaults, **{name: value for name, value in given.items() if value is not None}}
+
+
+def read_method(text, place):
+    """A method that this installation has."""
+    from restitute._places import LIBRARIES
+
+    needs = {"cvode": "SUNDIALS; Debian: libsundials-dev", "bem": "FFTW; Debian: libfftw3-dev"}
+    methods = {name: name.partition("-")[0] for name in (
+        "euler", "sync", "cvode", "cvode-bdf", "cvode-adams", "bem", "bem-paper")}
+    built = [name for name, part in methods.items() if part in LIBRARIES or part not in needs]
+    if text in built:
+        return text
+    among = f"must be among {', '.join(built)}{did_you_mean(text, built)}"
+    if text in methods:
+        part = methods[text]
+        raise Refusal(f'{place} = "{text}": the component {part} is not in this build '
+                      f"({needs[part]}); {among}")
+    raise Refusal(f'{place} = "{text[:64]}": is not in this build; {among}')
+
+
+# ----------------------------------------------------------------------------- values to keywords
+
+
+def values_of(arguments):
+    """The values of an impact that the options give, by their names."""
+    return {name: getattr(arguments, name) for name in (*FIELDS, *WORDS)
+            if arguments.given.get(name)}
+
+
+def place_of_options(arguments):
+    """place(name): what the user calls a field on the command line."""
+    return lambda name: arguments.given.get(name, "--" + name.replace("_", "-"))
+
+
+def keywords(values, place):
+    """The keywords of `restitute.pair` for given values.
+
+    Parameters
+    ----------
+    values : dict
+        Numbers or arrays by the names of FIELDS, and those of WORDS; only what is given.
+    place : callable
+        place(name) is what the user calls a field.
+
+    Raises
+    ------
+    Refusal
+        What is missing, or does not go together.
+    """
+    physical = [name for name in values if name not in DIMENSIONLESS]
+    if physical and len(physical) < len(values):
+        raise Refusal("dimensionless values (chi, psi, delta1, gamma, delta2) and values in SI "
+                      "units or a material are both given: use one kind")
+    if not values:
+        raise Refusal("no impact is described: give psi, delta1, gamma or a material, radius, "
+                      "speed; see restitute pair --help")
+    return _scene(values, place) if physical else _impact(values, place)
+
+
+def _missing(name, place):
+    return Refusal(f"{place(name)} is missing: {FIELDS[name].allowed}")
+
+
+def _impact(values, place):
+    """(25): delta2 = delta1 sqrt(gamma) gives whichever of the two is missing."""
+    given = dict(values)
+    delta2 = given.pop("delta2", None)
+    if "psi" not in given:
+        raise _missing("psi", place)
+    if delta2 is None:
+        if "gamma" not in given and _any(given.get("delta1", 0) > 0):
+            raise Refusal(f"{place('gamma')} is missing: delta1 > 0 needs gamma (0: Kelvin-Voigt) "
+                          "or delta2")
+        if "gamma" in given and "delta1" not in given:
+            raise Refusal(f"{place('delta1')} is missing: {place('gamma')} needs delta1 "
+                          "(0: elastic) or delta2 beside it")
+        return given
+    if "delta1" in given and "gamma" in given:
+        raise Refusal("delta1, gamma and delta2 are given: two of them determine the third")
+    if "delta1" not in given and "gamma" not in given:
+        raise Refusal("delta2 needs delta1 or gamma beside it")
+    other = "gamma" if "gamma" in given else "delta1"
+    known = given[other]
+    if _any((known <= 0) | (known == INFINITY)):
+        at = "" if hasattr(known, "shape") else f" = {known:.15g}"
+        raise Refusal(f"{place(other)}{at}: must be finite and > 0 beside delta2")
+    if other == "gamma":
+        given["delta1"] = delta2 / known ** 0.5
+    else:
+        given["gamma"] = (delta2 / known) ** 2
+    return given
+
+
+def _any(test):
+    return test.any() if hasattr(test, "any") else test
+
+
+def _scene(values, place):
+    for one, other in (("density", "mass"), ("density2", "mass2"), ("modulus1", "youngs_modulus"),
+                       ("modulus1", "shore_a"), ("youngs_modulus", "shore_a")):
+        if one in values and other in values:
+            raise Refusal(f"{place(one)} and {place(other)} are both given: one determines the "
+                          "other")
+    material = solid(values, place)
+    for name in ("radius", "speed", "friction"):
+        if name not in values:
+            raise _missing(name, place)
+    partner = values.get("partner", "rigid")
+    other = {"rigid": None, "same": material}.get(partner) or (
+        None if partner == "rigid" else material_of(partner, place("partner")))
+    scene = {name: values[name] for name in FIELDS if name in values and name not in SOLID}
+    _complete(scene, "", material, place)
+    if "radius2" in scene and _any(scene["radius2"] < INFINITY):
+        _complete(scene, "2", other, place)
+    for name in ("mass2", "density2", "inertia2", "spin2"):
+        value = scene.get(name, 0)
+        if "radius2" not in scene and _any((value != 0) & (value != INFINITY)):
+            raise Refusal(f"{place(name)} needs a partner sphere, {place('radius2')}")
+    if other not in (None, material):
+        if "time_shift" in values:
+            raise Refusal(f"{place('partner')} = {partner}: the material must be a file without "
+                          f"{place('time_shift')}")
+        material = material.paired(other)
+    if "rotation_blocked" in values:
+        scene["rotation_blocked"] = values["rotation_blocked"]
+    return {**scene, "material": material, "both_deform": partner == "same"}
+
+
+def _complete(scene, body, material, place):
+    """The density of a body is that of its material, if neither it nor the mass is given.
+
+    Against a rigid partner the sphere is what is of the material.
+    """
+    mass, density = f"mass{body}", f"density{body}"
+    if mass in scene or density in scene:
+        return
+    if material is None or not material.density > 0:
+        why = "" if material is None else " (the material gives no density)"
+        raise Refusal(f"{place(density)} or {place(mass)} is missing: must be > 0{why}")
+    scene[density] = material.density
+
+
+# -------------------------------------------------------------------------------------- materials
+
+
+def _is_file(text):
+    return os.sep in text or os.path.splitext(text)[1].lower() in (".json", ".csv")
+
+
+def names():
+    """The materials that are known by name."""
+    from restitute import material
+
+    return getattr(material, "names", list)()
+
+
+_read = {}
+
+
+def material_of(text, place="--material"):
+    """The material of a file or of a name, read once."""
+    import restitute
+
+    if text not in _read:
+        if not _is_file(text) and text not in names():
+            raise Refusal(f'{place} = "{text[:64]}": must end in .json or .csv, or be a name of '
+                          f"restitute materials{did_you_mean(text, names())}")
+        _read[text] = (restitute.Material.read if _is_file(text) else restitute.material)(text)
+    return _read[text]
+
+
+def shear_modulus(values):
+    """G1 in Pa: as given, by Young's modulus, or by the hardness Shore A.
+
+    Of the hardness by Gent, Rubber Chemistry and Technology 31 (1958), 896.
+    """
+    young = values.get("youngs_modulus")
+    if "shore_a" in values:
+        shore = values["shore_a"]
+        young = 0.0981e6 * (56 + 7.62336 * shore) / (0.137505 * (254 - 2.54 * shore))
+    if young is None:
+        return values.get("modulus1")
+    return young / (2 * (1 + values.get("poisson_ratio", 0.5)))
+
+
+def solid(values, place):
+    """The solid of single values, of a material or of numbers, its times shifted."""
+    from restitute import Material
+
+    shift = values.get("time_shift", 1.0)
+    moduli = [name for name in SOLID[:-1] if name in values]
+    if "material" in values:
+        if moduli:
+            raise Refusal(f"a material file and {place(moduli[0])} are both given: use one")
+        material = material_of(values["material"], place("material"))
+        return material if shift == 1 else material.shifted(shift)
+    modulus1, modulus2 = shear_modulus(values), values.get("modulus2")
+    if modulus1 is None:
+        raise Refusal(f"{place('material')} is missing: a material file, .json or .csv, or a name "
+                      f"(or {place('modulus1')} and what belongs to it)")
+    if modulus2 is not None and "viscosity" not in values:
+        raise _missing("viscosity", place)
+    if modulus1 == 0 and modulus2 is None:
+        raise _missing("modulus2", place)
+    about = {"poisson_ratio": values.get("poisson_ratio", 0.5), "name": "Solid of given moduli"}
+    if "viscosity" not in values:
+        return Material.elastic(modulus1, **about)
+    viscosity = values["viscosity"] * shift
+    if modulus1 == 0:
+        return Material.maxwell(modulus2, viscosity, **about)
+    if modulus2 is None:
+        return Material.kelvin_voigt(modulus1, viscosity, **about)
+    return Material.standard_solid(modulus1, modulus2, viscosity, **about)
