@@ -9,6 +9,7 @@ Every component is loaded when it is first named: `core`, `cvode`, `table`, `tab
 `files`, `contact`, `fit`.
 """
 import os
+import sys
 import warnings
 
 from restitute import errors
@@ -17,7 +18,6 @@ from restitute._places import LIBRARIES
 
 __all__ = ["array_type", "call", "ffi", "string", "struct", "text"]
 _COMPONENTS = ("core", "cvode", "table", "table_files", "bem", "files", "contact", "fit")
-_HOME = {"scene": "core", "body": "core", "collision": "core"}
 
 
 def __getattr__(name):
@@ -131,6 +131,9 @@ def pointer(array, kind=None):
     return ffi.from_buffer(kind, array)
 
 
-def warn(message, category, level=3):
+def warn(message, category):
     """A warning that points at the caller of the package."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] == "restitute":
+        frame, level = frame.f_back, level + 1
     warnings.warn(message, category, stacklevel=level)

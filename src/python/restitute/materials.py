@@ -1,0 +1,368 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Linear-viscoelastic solids: from constants, from files, by name, of two unlike bodies."""
+from __future__ import annotations
+
+import difflib
+import math
+import os
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from restitute import _library, errors
+from restitute._library import call, ffi
+
+__all__ = ["Material", "Series", "material", "material_names", "shear_modulus", "solids"]
+_FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "materials")
+
+#: Shifts of relaxation times with temperature, log10 a_T = -c1 (T - T0)/(c2 + T - T0): T0 (degrees
+#: Celsius), c1, c2 (K). Polyisobutylene: Ferry, Viscoelastic Properties of Polymers, table 11-II, for 298 K.
+_WLF = {"polyisobutylene": (25.0, 8.61, 200.4)}
+
+
+class Series(NamedTuple):
+    """G(t) = equilibrium_modulus + sum_k modulus[k] exp(-t/relaxation_time[k]) + parallel_viscosity delta(t)."""
+
+    relaxation_time: np.ndarray  #: s, ascending
+    modulus: np.ndarray  #: Pa
+    equilibrium_modulus: float  #: Pa
+    parallel_viscosity: float  #: Pa s
+
+
+class Material:
+    """A linear-viscoelastic solid: its shear relaxation modulus and Poisson's ratio,
+
+        G(t) = G_inf + sum_k G_k exp(-t/tau_k) + eta_inf delta(t).
+
+    Immutable; threads may share it. Made by one of its constructors, which take shear moduli (see
+    `shear_modulus` for Young's modulus) and, as further keywords, `name`, `source` and `density`.
+    Two materials are equal if their series, Poisson's ratios and densities are.
+
+    Attributes
+    ----------
+    name, source, model : str
+        What a file says; empty without one.
+    density : float
+        kg/m^3; nan if none is given.
+
+    Raises
+    ------
+    DomainError
+        A modulus outside of 1e-30 to 1e30 Pa, a relaxation time outside of 1e-30 to 1e30 s, Poisson's
+        ratio outside of 0 to 0.5.
+
+    Examples
+    --------
+    >>> rubber = Material.standard_solid(1e6, 3e6, 300.0, name="rubber", density=1100)
+    >>> rubber.relaxation_modulus([1e-9, 1e3]).round(-4)
+    array([4000000., 1000000.])
+    """
+
+    def __init__(self, handle: Any, name: str = "", source: str = "", model: str = "", density: float = math.nan,
+                 parts: tuple[Material, Material] | None = None):
+        self._handle = ffi.gc(handle, _library.core.restitute_material_destroy)
+        self.name, self.source, self.model, self.density = name, source, model, density
+        self._parts = parts
+        self.address = int(ffi.cast("uintptr_t", handle))
+
+    @classmethod
+    def _made(cls, function, *arguments, **about) -> Material:
+        handle = ffi.new("restitute_material **")
+        call(function, *arguments, handle)
+        return cls(handle[0], **about)
+
+    @classmethod
+    def elastic(cls, modulus: float, poisson_ratio: float = 0.5, **about: Any) -> Material:
+        """Elastic solid of shear modulus `modulus` (Pa).
+
+        >>> Material.elastic(shear_modulus(youngs=210e9, poisson_ratio=0.3), 0.3).relaxation_modulus(1.0).round(-7)
+        80770000000.0
+        """
+        return cls._made(_library.core.restitute_material_elastic, modulus, poisson_ratio,
+                         **{"model": "elastic", **about})
+
+    @classmethod
+    def standard_solid(cls, modulus1: float, modulus2: float, viscosity: float, poisson_ratio: float = 0.5,
+                       **about: Any) -> Material:
+        """Standard solid: spring G1 parallel to a spring G2 and a dashpot eta in series (Pa, Pa, Pa s).
+
+        >>> Material.standard_solid(1e6, 2e6, 50.0).series.relaxation_time
+        array([2.5e-05])
+        """
+        return cls._made(_library.core.restitute_material_standard_solid, modulus1, modulus2, viscosity, poisson_ratio,
+                         **{"model": "standard_solid", **about})
+
+    @classmethod
+    def kelvin_voigt(cls, modulus1: float, viscosity: float, poisson_ratio: float = 0.5, **about: Any) -> Material:
+        """Kelvin-Voigt solid: spring G1 (Pa) parallel to a dashpot eta (Pa s).
+
+        >>> Material.kelvin_voigt(1e6, 50.0).series.parallel_viscosity
+        50.0
+        """
+        return cls._made(_library.core.restitute_material_kelvin_voigt, modulus1, viscosity, poisson_ratio,
+                         **{"model": "kelvin_voigt", **about})
+
+    @classmethod
+    def maxwell(cls, modulus: float, viscosity: float, poisson_ratio: float = 0.5, **about: Any) -> Material:
+        """Maxwell body: spring G (Pa) in series with a dashpot eta (Pa s). It may never rebound.
+
+        >>> Material.maxwell(1e6, 50.0).series.equilibrium_modulus
+        0.0
+        """
+        return cls._made(_library.core.restitute_material_maxwell, modulus, viscosity, poisson_ratio,
+                         **{"model": "maxwell", **about})
+
+    @classmethod
+    def prony(cls, relaxation_time: Any, modulus: Any, equilibrium_modulus: float = 0.0,
+              parallel_viscosity: float = 0.0, poisson_ratio: float = 0.5, **about: Any) -> Material:
+        """Prony series; every other solid is a case of it.
+
+        Parameters
+        ----------
+        relaxation_time, modulus : array_like, shape (n,)
+            tau_k (s), no two alike; G_k (Pa).
+        equilibrium_modulus, parallel_viscosity : float
+            G_inf (Pa), eta_inf (Pa s).
+
+        Examples
+        --------
+        >>> Material.prony([1e-4, 1e-2], [5e6, 1e6], 1e6).relaxation_modulus(1e-3).round(-4)
+        1910000.0
+        """
+        tau, g = np.broadcast_arrays(np.atleast_1d(relaxation_time), np.atleast_1d(modulus))
+        if tau.ndim != 1:
+            raise errors.DomainError(f"relaxation_time, modulus: have the shape {tau.shape}, must have one dimension")
+        tau, g = np.array(tau, float), np.array(g, float)
+        return cls._made(_library.core.restitute_material_prony, equilibrium_modulus, parallel_viscosity, len(tau),
+                         _library.pointer(tau), _library.pointer(g), poisson_ratio, **{"model": "prony", **about})
+
+    @classmethod
+    def effective(cls, material1: Material, material2: Material, **about: Any) -> Material:
+        """The solid that stands for two bodies of unlike materials: compliances add (docs/theory.md, 10).
+
+        >>> pair = Material.effective(Material.elastic(80e9, 0.3), Material.elastic(30e9, 0.3))
+        >>> round(pair.dundurs, 3)
+        -0.13
+        """
+        name = f"{material1.name or material1.model} on {material2.name or material2.model}"
+        return cls._made(_library.core.restitute_material_effective, material1._handle, material2._handle,
+                         parts=(material1, material2),
+                         **{"name": name, "model": "effective", "density": material1.density, **about})
+
+    @classmethod
+    def read(cls, path: str | os.PathLike) -> Material:
+        """A material from a .json or .csv file, see include/restitute/files.h for the form.
+
+        Raises
+        ------
+        FileError, FormatError, DomainError
+            The text names the file, the place, the value and its range.
+        """
+        info = _library.struct("material_info", "files")
+        handle = ffi.new("restitute_material **")
+        call(_library.files.restitute_material_read, _library.string(path), handle, info)
+        return cls(handle[0], *(_library.text(part) for part in (info.name, info.source, info.model)), info.density)
+
+    @property
+    def poisson_ratio(self) -> float:
+        """Poisson's ratio nu."""
+        return _library.core.restitute_material_poisson_ratio(self._handle)
+
+    @property
+    def dundurs(self) -> float:
+        """Dundurs' beta of an effective solid, in [-1/2, 1/2]; 0 for a material by itself."""
+        return _library.core.restitute_material_dundurs(self._handle)
+
+    @property
+    def series(self) -> Series:
+        """The Prony series."""
+        count = _library.core.restitute_material_terms(self._handle)
+        tau, g, rest = np.empty(count), np.empty(count), ffi.new("double[2]")
+        call(_library.core.restitute_material_series, self._handle, rest, rest + 1, _library.pointer(tau),
+             _library.pointer(g))
+        return Series(tau, g, rest[0], rest[1])
+
+    def relaxation_modulus(self, time: Any) -> Any:
+        """G(t) in Pa at times t > 0 (s) after a unit shear step, an array of their shape; nan elsewhere."""
+        t, s = np.asarray(time, float), self.series
+        with np.errstate(under="ignore"):
+            value = s.equilibrium_modulus + np.exp(-np.where(t > 0, t, np.nan)[..., None] / s.relaxation_time) @ s.modulus
+        return np.where(t > 0, value, np.nan)[()]
+
+    def _sine_cosine(self, frequency: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """omega, and sine and cosine of arctan(omega tau): squares of large numbers do not overflow."""
+        omega = np.asarray(frequency, float)
+        omega = np.where(omega >= 0, omega, np.nan)
+        x = omega[..., None] * self.series.relaxation_time
+        cosine = 1 / np.hypot(1, x)
+        return omega, x * cosine, cosine
+
+    def storage_modulus(self, frequency: Any) -> Any:
+        """G'(omega) in Pa at angular frequencies >= 0 (rad/s), an array of their shape; nan elsewhere.
+
+        >>> Material.maxwell(1e6, 1e3).storage_modulus(1e3).round(3)
+        500000.0
+        """
+        omega, sine, _ = self._sine_cosine(frequency)
+        return (self.series.equilibrium_modulus + sine**2 @ self.series.modulus + 0 * omega)[()]
+
+    def loss_modulus(self, frequency: Any) -> Any:
+        """G''(omega) in Pa at angular frequencies >= 0 (rad/s), an array of their shape; nan elsewhere."""
+        omega, sine, cosine = self._sine_cosine(frequency)
+        return ((sine * cosine) @ self.series.modulus + self.series.parallel_viscosity * omega)[()]
+
+    def shifted(self, time_shift: float) -> Material:
+        """The same solid with all relaxation times and viscosities times `time_shift`, the a_T of a temperature."""
+        if time_shift == 1:
+            return self
+        about = {"name": self.name, "source": self.source, "model": self.model, "density": self.density}
+        if self._parts:
+            return Material.effective(*(part.shifted(time_shift) for part in self._parts), **about)
+        s = self.series
+        return Material.prony(s.relaxation_time * time_shift, s.modulus, s.equilibrium_modulus,
+                              s.parallel_viscosity * time_shift, self.poisson_ratio, **about)
+
+    def _key(self) -> tuple:
+        s = self.series
+        return (s.relaxation_time.tobytes(), s.modulus.tobytes(), s.equilibrium_modulus, s.parallel_viscosity,
+                self.poisson_ratio, self.dundurs, np.float64(self.density).tobytes())
+
+    def __eq__(self, other):
+        return self._key() == other._key() if isinstance(other, Material) else NotImplemented
+
+    def __hash__(self):
+        return hash(self._key())
+
+    def __reduce__(self):
+        about = (self.name, self.source, self.model, self.density)
+        return _again, (about, self._parts or (*self.series, self.poisson_ratio))
+
+    def __repr__(self):
+        s = self.series
+        stiffest = s.equilibrium_modulus + s.modulus.sum()
+        about = f"{self.name!r}, " if self.name else ""
+        return (f"<restitute.Material {about}{self.model}, G(t) from {stiffest:.3g} to {s.equilibrium_modulus:.3g} Pa, "
+                f"nu = {self.poisson_ratio:.3g}>")
+
+
+def _again(about: tuple, constants: tuple) -> Material:
+    """What a pickled material becomes: of the same bits."""
+    words = dict(zip(("name", "source", "model", "density"), about))
+    return Material.effective(*constants, **words) if len(constants) == 2 else Material.prony(*constants, **words)
+
+
+def material_names() -> list[str]:
+    """Names that `material` knows.
+
+    >>> "polyisobutylene" in material_names()
+    True
+    """
+    return sorted(name[:-5] for name in os.listdir(_FOLDER) if name.endswith(".json"))
+
+
+def material(name: str | os.PathLike, temperature: float | None = None) -> Material:
+    """A material by its name, or from a file.
+
+    Parameters
+    ----------
+    name : str or path
+        One of `material_names()`, or a .json or .csv file.
+    temperature : float, optional
+        Degrees Celsius; by default the one that the constants hold for. Relaxation times are shifted by the
+        equation of Williams, Landel and Ferry, for materials whose constants are known.
+
+    Raises
+    ------
+    DomainError
+        The name is unknown, or there are no constants for a temperature.
+
+    Examples
+    --------
+    >>> material("polyisobutylene", temperature=40).density
+    920.0
+    """
+    word = os.fspath(name)
+    if word.endswith((".json", ".csv")):
+        found, word = Material.read(word), ""
+    elif word in material_names():
+        found = Material.read(os.path.join(_FOLDER, f"{word}.json"))
+    else:
+        near = difflib.get_close_matches(word, material_names(), 1)
+        raise errors.DomainError(f"material = {word!r}: {f'did you mean {near[0]}? ' if near else ''}must be a .json or "
+                                 f".csv file or one of {', '.join(material_names())}")
+    if temperature is None:
+        return found
+    if word not in _WLF:
+        raise errors.DomainError(f"temperature = {temperature:g}: no shift of times with temperature is known for "
+                                 f"{os.fspath(name)}; shift it yourself by Material.shifted(a_T)")
+    reference, c1, c2 = _WLF[word]
+    if not reference - c2 < temperature < math.inf:
+        raise errors.DomainError(f"temperature = {temperature:g}: must be above {reference - c2:g} degrees Celsius")
+    return found.shifted(10 ** (-c1 * (temperature - reference) / (c2 + temperature - reference)))
+
+
+def shear_modulus(*, youngs: Any = None, shore_a: Any = None, poisson_ratio: Any = 0.5) -> Any:
+    """The shear modulus (Pa) from Young's modulus or from hardness: G = E/(2 (1 + nu)).
+
+    Parameters
+    ----------
+    youngs : array_like
+        E, Pa.
+    shore_a : array_like, in [10, 95]
+        Instead of E: Shore A hardness S. E = 0.0981 MPa (56 + 7.62336 S)/(0.137505 (254 - 2.54 S)), A. N. Gent,
+        Rubber Chemistry and Technology 31 (1958) 896. A rough estimate, of the slow (equilibrium) modulus.
+    poisson_ratio : array_like
+
+    Examples
+    --------
+    >>> shear_modulus(youngs=210e9, poisson_ratio=0.3).round(-7)
+    80770000000.0
+    >>> shear_modulus(shore_a=60).round(-4)
+    1200000.0
+    """
+    if (youngs is None) == (shore_a is None):
+        raise TypeError("shear_modulus needs youngs or shore_a, one of them")
+    if shore_a is not None:
+        s = np.asarray(shore_a, float)
+        if not np.all((s >= 10) & (s <= 95)):
+            raise errors.DomainError(f"shore_a = {s}: must be in [10, 95]")
+        youngs = 0.0981e6 * (56 + 7.62336 * s) / (0.137505 * (254 - 2.54 * s))
+    return np.float64(1) * np.asarray(youngs, float) / (2 * (1 + np.asarray(poisson_ratio, float)))
+
+
+def _solid(modulus1: float, modulus2: float, viscosity: float, poisson_ratio: float) -> Material:
+    if viscosity == 0:
+        return Material.elastic(modulus1, poisson_ratio)
+    if modulus1 == 0:
+        return Material.maxwell(modulus2, viscosity, poisson_ratio)
+    if math.isinf(modulus2):
+        return Material.kelvin_voigt(modulus1, viscosity, poisson_ratio)
+    return Material.standard_solid(modulus1, modulus2, viscosity, poisson_ratio)
+
+
+def solids(modulus1: Any, modulus2: Any = math.inf, viscosity: Any = 0.0, poisson_ratio: Any = 0.5) -> np.ndarray:
+    """Solids of arrays of constants: an object array of their broadcast shape, one Material a combination.
+
+    Without viscosity elastic; with modulus1 = 0 a Maxwell body; with modulus2 infinite a Kelvin-Voigt solid.
+
+    Raises
+    ------
+    DomainError
+        With `index`, of the first combination out of range.
+
+    Examples
+    --------
+    >>> solids([1e6, 1e6, 2e6]).shape
+    (3,)
+    """
+    columns = np.broadcast_arrays(*(np.asarray(c, float) for c in (modulus1, modulus2, viscosity, poisson_ratio)))
+    rows = np.stack([c.ravel() for c in columns], axis=1)
+    distinct, first, inverse = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    made = np.empty(len(distinct), object)
+    for i, row in enumerate(distinct):
+        try:
+            made[i] = _solid(*row)
+        except errors.DomainError as error:
+            error.index = int(first[i])
+            raise
+    return made[inverse.ravel()].reshape(columns[0].shape)
