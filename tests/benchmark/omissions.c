@@ -31,19 +31,19 @@ static const struct pair {
     struct variant full, lean;
     int chosen;
 } pairs[] = {
-    {"dashpot states", {"weak dashpot", WEAK_DASHPOT, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 0},
-    {"tangential states", {"psi = 0.7", STANDARD, 0.7, 0, 0}, {"frictionless: normal only", STANDARD, INFINITY, 0, 0}, 0},
-    {"tangential elements in full slip", {"psi = 0.9", STANDARD, 0.9, 0, 0}, {"psi = 5 > psi_c", STANDARD, 5, 0, 0}, 0},
+    {"dashpot states", {"a dashpot that changes the result by 1e-5", WEAK_DASHPOT, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 0},
+    {"tangential states: the normal problem only", {"psi = 0.7", STANDARD, 0.7, 0, 0}, {"frictionless", STANDARD, INFINITY, 0, 0}, 0},
+    {"tangential elements in full slip", {"psi = 0.9", STANDARD, 0.9, 0, 0}, {"psi = 5, above psi_c", STANDARD, 5, 0, 0}, 0},
     {"tangential elements in gross slip", {"psi = 0.9", STANDARD, 0.9, 0, 0}, {"psi = 1.6", STANDARD, 1.6, 0, 0}, 0},
-    {"friction limit", {"psi = 1e-9", STANDARD, 1e-9, 0, 0}, {"psi = 0: no slip", STANDARD, 0, 0, 0}, 0},
-    {"merged Prony terms", {"30 terms all felt", FELT_TERMS, 0.7, 0, 0}, {"30 terms merged", SPREAD_TERMS, 0.7, 0, 0}, 0},
-    {"energy ledger", {"ledger", STANDARD, 0.7, 1, 0}, {"no ledger", STANDARD, 0.7, 0, 0}, 0},
-    {"normal motion", {"psi = 0.7", STANDARD, 0.7, 0, 0}, {"psi = 0.7 of a plan", STANDARD, 0.7, 0, 1}, 0},
-    {"normal motion", {"30 terms all felt", FELT_TERMS, 0.7, 0, 0}, {"30 terms of a plan", FELT_TERMS, 0.7, 0, 1}, 0},
+    {"friction limit", {"psi = 1e-9", STANDARD, 1e-9, 0, 0}, {"psi = 0", STANDARD, 0, 0, 0}, 0},
+    {"merged Prony terms", {"30 terms in two decades, none merged", FELT_TERMS, 0.7, 0, 0}, {"30 terms over 18 decades, merged at 1e-3", SPREAD_TERMS, 0.7, 0, 0}, 0},
+    {"energy ledger", {"asked for", STANDARD, 0.7, 1, 0}, {"not asked for", STANDARD, 0.7, 0, 0}, 0},
+    {"normal motion of a standard solid", {"a single call", STANDARD, 0.7, 0, 0}, {"a plan that has it", STANDARD, 0.7, 0, 1}, 0},
+    {"normal motion of 30 terms", {"a single call", FELT_TERMS, 0.7, 0, 0}, {"a plan that has it", FELT_TERMS, 0.7, 0, 1}, 0},
     {"default impact", {"Kelvin-Voigt", VOIGT, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 1},
     {"default impact", {"Maxwell", MAXWELL, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 1},
     {"default impact", {"standard solid", STANDARD, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 1},
-    {"default impact", {"30 terms merged", SPREAD_TERMS, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 1},
+    {"default impact", {"30 terms, merged", SPREAD_TERMS, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 1},
 };
 
 /* Where resolution is prescribed: as many elements and steps as the default tolerance takes for most impacts. */
@@ -168,7 +168,7 @@ static void compare(const struct bench_method *method, const struct pair *p, int
 {
     struct ready full = {0}, lean = {0};
     restitute_error error = {0};
-    printf("%s,%s,%s,%s,", method->name, p->left_out, p->full.name, p->lean.name);
+    printf("%s,\"%s\",\"%s\",\"%s\",", method->name, p->left_out, p->full.name, p->lean.name);
     int status = prepare(method, &p->full, p->chosen, &full, &error);
     if (status >= 0) status = prepare(method, &p->lean, p->chosen, &lean, &error);
     if (status >= 0)
