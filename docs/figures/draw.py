@@ -45,7 +45,7 @@ def pieces(path):
 
 
 def sync_panels(curves, path):
-    """Edge and stick radius of one impact, the points of collocation and the times of same angle."""
+    """Edge and stick radius of an impact, points of collocation, times of the same angle."""
     figure, axes = plt.subplots(figsize=(7.2, 4.6), layout="constrained")
     s, edge, stick = np.loadtxt(curves / "sync_curves.dat").T
     axes.fill_between(s, stick, edge, color="#f6dfd6")

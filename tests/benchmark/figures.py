@@ -73,3 +73,16 @@ def stability(cells, methods, steps, path):
     figure.legend(handles=[Patch(facecolor=colour, edgecolor="#888888", label=name) for name, colour in OTHERS.items()],
                   loc="upper center", ncols=len(OTHERS), frameon=False)
     save(figure, path)
+
+
+def differences(psi, kinds, ez, ex, names, limit, path):
+    """Absolute differences over psi, a colour a kind of solid."""
+    figure, panels = plt.subplots(1, 2, figsize=(9, 4.2), sharey=True, layout="constrained")
+    for axes, difference, symbol in zip(panels, (ez, ex), ("e_z", "e_x")):
+        axes.axhline(limit, color="#888888", linestyle="--", label=f"{limit:g}")
+        for kind, name in enumerate(names):
+            chosen = kinds == kind
+            axes.loglog(psi[chosen], [max(1e-8, abs(d)) for d in difference[chosen]], "o", markersize=3, label=name)
+        axes.set(title=f"|difference in ${symbol}$|", xlabel=r"$\psi$", ylim=(7e-9, 1e-2))
+    panels[0].legend(loc="upper left")
+    save(figure, path)
