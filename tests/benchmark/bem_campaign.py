@@ -8,11 +8,11 @@ import sys
 import warnings
 from pathlib import Path
 
-import figures
 import numpy as np
-from report import Report, power, short, table
 
+import figures
 import restitute
+from report import Report, power, short, table
 
 SEED, LIMIT = 2017, 0.002
 KINDS = ("elastic", "standard solid", "Prony series")
@@ -80,7 +80,6 @@ def main(docs, count=200, grids=(64, 128, 256)):
     report = Report(None, Path("."), docs, False, False)
     report.put("records/bem.md", "campaign", table(["grid", "solid", "impacts", "failed", "e_z median", "95 %", "largest",
                                                     "e_x median", "95 %", "largest"], lines) + ["", *said])
-    report.dated("records/bem.md", "campaign")
     figures.differences(*drawn, KINDS, LIMIT, docs / "figures/bem.svg")
 
 

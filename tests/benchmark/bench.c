@@ -167,35 +167,9 @@ int bench_read_scene(FILE *file, struct bench_scene *s)
     return 1;
 }
 
-/* Prints restarts and events of a run by cvode, which its recorder counts; empty cells of others. */
-static void print_work(const restitute_options *options, const struct bench_scene *scene)
-{
-#ifdef RESTITUTE_WITH_CVODE
-    restitute_options recorded = *options;
-    restitute_cvode_recorder *recorder;
-    restitute_cvode_work work;
-    restitute_cvode_work_init(&work);
-    if (options->method && restitute_cvode_recorder_create(options->method, &recorder, NULL) >= 0) {
-        recorded.method = restitute_cvode_recorder_method(recorder);
-        struct solve once = {.scene = scene, .solver = solver_of(&recorded)};
-        restitute_result_init(&once.result);
-        solve(&once);
-        restitute_cvode_recorder_work(recorder, &work, NULL);
-        restitute_solver_destroy(once.solver);
-        restitute_cvode_recorder_destroy(recorder);
-        printf("%lld,%lld,", (long long)work.restarts, (long long)work.events);
-        return;
-    }
-#else
-    (void)options, (void)scene;
-#endif
-    printf(",,");
-}
-
 void bench_print_head(void)
 {
-    puts("scene,method,tolerance,elements_asked,steps_asked,seconds,outcome,restarts,events,ez,ex,error_ez,error_ex,"
-         "elements,steps");
+    puts("scene,method,tolerance,elements_asked,steps_asked,seconds,outcome,ez,ex,error_ez,error_ex,elements,steps");
 }
 
 static const char *outcome_of(const struct solve *s)
@@ -232,7 +206,6 @@ double bench_run(const struct bench_scene *scene, const struct bench_method *met
     if (s.end == PAPER_NO_MEMORY) stop(scene->name, "out of memory");
     printf("%s,%s,%g,%lld,%lld,%.4g,%s,", scene->name, method->name, method->handle ? tolerance : NAN,
            (long long)elements, (long long)steps, seconds, outcome);
-    print_work(&options, scene);
     if (strcmp(outcome, "solved") == 0 || strcmp(outcome, "not reached") == 0)
         printf("%.12f,%.12f,%.3g,%.3g,%lld,%lld\n", s.result.ez, s.result.ex, s.result.error_ez, s.result.error_ex,
                (long long)s.result.elements, (long long)s.result.steps);
