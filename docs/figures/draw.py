@@ -41,7 +41,8 @@ def beside(computed, measured, psi_c, sign, said, path, **labels):
 
 def pieces(path):
     """Arrays of the pieces of a file that empty lines part."""
-    return [np.loadtxt(piece.splitlines(), ndmin=2) for piece in path.read_text().split("\n\n") if piece.strip()]
+    parts = path.read_text().split("\n\n")
+    return [np.loadtxt(part.splitlines(), ndmin=2) for part in parts if part.strip()]
 
 
 def sync_panels(curves, path):
@@ -50,13 +51,14 @@ def sync_panels(curves, path):
     s, edge, stick = np.loadtxt(curves / "sync_curves.dat").T
     axes.fill_between(s, stick, edge, color="#f6dfd6")
     for number, (time, radius) in enumerate(a.T for a in pieces(curves / "sync_angles.dat")):
-        axes.plot(time, radius, "--", color="#999999", linewidth=1, label="" if number else "same edge angle")
+        axes.plot(time, radius, "--", color="#999999", linewidth=1,
+                  label="" if number else "same edge angle")
     axes.plot(s, edge, color="#333333", linewidth=2, label="edge A(s)")
     axes.plot(s, stick, color=RED, linewidth=2.5, label="stick radius c(s)")
     points = np.loadtxt(curves / "sync_points.dat")
     ends = points[points[:, 2] > 0]
-    axes.plot(points[:, 0], points[:, 1], "o", color=BLUE, markersize=3, label="points of collocation")
-    axes.plot(ends[:, 0], ends[:, 1], "o", color=BLUE, markersize=7, fillstyle="none", label="ends of panels")
+    axes.plot(*points.T[:2], "o", color=BLUE, markersize=3, label="points of collocation")
+    axes.plot(*ends.T[:2], "o", color=BLUE, markersize=7, fillstyle="none", label="ends of panels")
     axes.plot([1.245, 1.245], [0, 1.05], ":", color=GREY)
     for text, x, y, where, colour in (
             ("all stick", 0.98, 0.4, "center", BLUE), ("gross slip", 0.42, 0.3, "center", RED),
@@ -75,8 +77,8 @@ def main(curves, data, figures):
            figures / "kharaz.svg", xlim=(0, 90), ylim=(0.5, 1), xticks=range(0, 91, 15),
            xlabel="angle from the normal, degrees",  # psi_c: tan(angle) = 0.092 (4 chi - 1)/0.859
            ylabel=r"tangential restitution of the centre, $e_t$")
-    beside(curves / "fem.csv", data / "fem_oblique.csv", 5.79, -1, "finite elements (Chung and Ooi)",
-           figures / "fem.svg", xlim=(0, 19), ylim=(0, 6), xticks=range(0, 19, 2),
+    beside(curves / "fem.csv", data / "fem_oblique.csv", 5.79, -1,
+           "finite elements (Chung and Ooi)", figures / "fem.svg", xlim=(0, 19), ylim=(0, 6), xticks=range(0, 19, 2),
            xlabel=r"$V_t/(\mu V_n)$", ylabel=r"$-R w'/(\mu V_n)$")  # psi_c: (4 chi - 1)/0.824
     sync_panels(curves, figures / "sync-panels.svg")
 

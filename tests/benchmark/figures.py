@@ -63,7 +63,8 @@ def stability(runs, found, scenes, methods, levels, path):
             for i in np.flatnonzero((runs.method == method) & (runs.steps_asked == 10**level)):
                 scene, error = scenes[runs.place[i]], max(1e-8, runs.error[i])
                 colour = OTHERS.get(found[i]) or colours(norm(np.log10(error)))
-                image[round(np.log10(scene.gamma)) + 6, round(np.log10(scene.delta1)) + 6] = to_rgba(colour)
+                x, y = (round(np.log10(v)) + 6 for v in (scene.delta1, scene.gamma))
+                image[y, x] = to_rgba(colour)
             axes.imshow(image, origin="lower", extent=(-6.5, 6.5, -6.5, 6.5))
             axes.set(xticks=range(-6, 7, 3), yticks=range(-6, 7, 3))
             axes.set_title(f"{method}, {10**level} steps", fontsize=9)

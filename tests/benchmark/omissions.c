@@ -46,7 +46,8 @@ static const struct pair {
     {"default impact", {"30 terms, merged", SPREAD_TERMS, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 1},
 };
 
-/* Where resolution is prescribed: as many elements and steps as the default tolerance takes for most impacts. */
+/* Where resolution is prescribed: as many elements and steps as the default tolerance takes for most
+ * impacts. */
 static const int64_t elements = 64;
 static const double step = 1e-3;
 
@@ -79,8 +80,8 @@ static int make_solid(enum solid kind, restitute_material **material, restitute_
     }
 }
 
-/* A variant ready to be timed. Without friction there is a scene in SI units, whose numbers are then
- * those of the impact. */
+/* A variant ready to be timed. Without friction there is a scene in SI units, whose numbers are
+ * then those of the impact. */
 struct ready {
     restitute_material *solid;
     restitute_solver *solver;
@@ -151,8 +152,8 @@ static double time_once(struct ready *r)
 }
 
 /* The two in turn, so that what else the machine does meets both. Contact times differ a little;
- * where the step is prescribed the ratio is therefore that of times of a step. Steps that the method
- * chooses are part of what is saved. `times` has room for both. */
+ * where the step is prescribed the ratio is therefore that of times of a step. Steps that the
+ * method chooses are part of what is saved. `times` has room for both. */
 static void measure(struct ready *full, struct ready *lean, int repeats, int prescribed_step, double *times)
 {
     for (int i = 0; i < repeats; i++) {

@@ -17,7 +17,8 @@ struct paper_problem {
 };
 
 /* How the sphere moves. EULER: positions first, velocities last, as in the paper. VERLET: velocity
- * Verlet, as in its section 4. FORWARD: Euler of the textbook, both from the state before the step. */
+ * Verlet, as in its section 4. FORWARD: Euler of the textbook, both from the state before the
+ * step. */
 enum paper_motion { PAPER_EULER, PAPER_VERLET, PAPER_FORWARD };
 
 /* Fixed for the whole run. */

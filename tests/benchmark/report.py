@@ -14,9 +14,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
-
 import figures
+import numpy as np
 from scenes import map_scenes, numbers, rows_of, runs_of, standard_scenes, write_scenes
 
 HERE = Path(__file__).resolve().parent
@@ -135,9 +134,11 @@ def speed_table(runs, scenes, methods):
         for error in ERRORS:
             asked, got = speed(runs, places, method, error)
             paper = speed(runs, places, PAPER, error)
-            ratios = ["" if method == PAPER else short(p[0] / m[0]) for p, m in zip(paper, (asked, got))]
-            lines.append([method if error == ERRORS[0] else "", power(error), si(asked[0]) + asked[2],
-                          asked[1], ratios[0], si(got[0]), got[1], ratios[1]])
+            ratios = [short(p[0] / m[0]) if method != PAPER else ""
+                      for p, m in zip(paper, (asked, got))]
+            lines.append([method if error == ERRORS[0] else "", power(error),
+                          si(asked[0]) + asked[2], asked[1], ratios[0],
+                          si(got[0]), got[1], ratios[1]])
     return table(["method", "error", "asked", "within", "ratio", "got", "reached", "ratio"], lines)
 
 
@@ -170,13 +171,15 @@ def precision(report, methods):
 
 
 def omissions(report, methods):
-    rows = rows_of(report.run("omissions", "omissions", ",".join(methods), 5 if report.quick else 51))
+    repeats = 5 if report.quick else 51
+    rows = rows_of(report.run("omissions", "omissions", ",".join(methods), repeats))
     lines = {}
     for row in rows:
         words = row["left_out"], row["full"], row["lean"]
         lines.setdefault(words, []).append(short(float(row["ratio"] or "nan")))
-    parts = [[*words, *cells] for words, cells in lines.items() if words[0] != "default impact"]
-    solids = [[words[1], *cells] for words, cells in lines.items() if words[0] == "default impact"]
+    default = "default impact"
+    parts = [[*words, *cells] for words, cells in lines.items() if words[0] != default]
+    solids = [[words[1], *cells] for words, cells in lines.items() if words[0] == default]
     page = "records/omissions.md"
     report.put(page, "omissions", table(["left out", "full", "lean", *methods], parts))
     report.put(page, "solids", table(["solid", *methods], solids))
@@ -220,7 +223,8 @@ def contact(report, _):
     for row in rows_of(report.run("contact", "contact_step")):
         bare, single, batch = numbers(row, "hertz_mindlin_ns", "single_ns", "batch_ns")
         lines.append([row["law"], f"{single / bare:.1f}", f"{batch / bare:.1f}"])
-    report.put("dem.md", "contact", table(["law (8 elements)", "single calls", "in batches"], lines))
+    head = ["law (8 elements)", "single calls", "in batches"]
+    report.put("dem.md", "contact", table(head, lines))
 
 
 def lookups(report, _):
@@ -247,10 +251,10 @@ def instructions(report, _):
         write_scenes(path, [scene])
         lines.append([scene.name])
         for tolerance in tolerances:
-            words = [report.programs / "impacts", path, "repeat", "sync", f"{tolerance:g}", scene.name]
-            two, three = (int(re.search(r"Collected : (\d+)", subprocess.run(
-                [*counter, *words, times], check=True, capture_output=True, text=True).stderr)[1])
-                for times in ("2", "3"))
+            words = [report.programs / "impacts", path, "repeat", "sync", tolerance, scene.name]
+            said = [subprocess.run([*counter, *map(str, words), times], check=True, text=True,
+                                   capture_output=True).stderr for times in ("2", "3")]
+            two, three = (int(re.search(r"Collected : (\d+)", text)[1]) for text in said)
             lines[-1].append(f"{(three - two) / 1000:.0f}")
     report.put("records/bench.md", "instructions", table(["scene", *map(power, tolerances)], lines))
 
@@ -265,7 +269,7 @@ def main():
     parser.add_argument("--docs", type=Path, default=HERE.parent.parent / "docs")
     parser.add_argument("--parts", nargs="+", choices=PARTS, default=list(PARTS))
     parser.add_argument("--cvode", action="store_true", help="this build has the method cvode")
-    parser.add_argument("--quick", action="store_true", help="few impacts, to see that all of it runs")
+    parser.add_argument("--quick", action="store_true", help="few impacts, to see that it runs")
     parser.add_argument("--kept", action="store_true", help="take the CSV that is there")
     words = parser.parse_args()
     report = Report(words.programs, words.directory, words.docs, words.quick, words.kept)
