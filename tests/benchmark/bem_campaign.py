@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Boundary elements beside `sync` on random impacts: bem_campaign.py DOCS [IMPACTS [GRID ...]]
 
-Fills the table of the page records/bem.md in DOCS and draws figures/bem.svg there. A grid of 128 x 128 cells is
-128; 256 gets a fifth of the impacts. Needs the package restitute.
+Fills the table of the page records/bem.md in DOCS and draws figures/bem.svg there. A grid of
+128 x 128 cells is 128; 256 gets a fifth of the impacts. Needs the package restitute.
 """
 import sys
 import warnings

@@ -46,8 +46,8 @@ static const struct pair {
     {"default impact", {"30 terms, merged", SPREAD_TERMS, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 1},
 };
 
-/* Where resolution is prescribed: as many elements and steps as the default tolerance takes for most
- * impacts. */
+/* Where resolution is prescribed: as many elements and steps as the default tolerance takes for
+ * most impacts. */
 static const int64_t elements = 64;
 static const double step = 1e-3;
 

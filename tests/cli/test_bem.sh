@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# The method bem of the command.
+# The method bem of the command, and its fields.
 . "$(dirname -- "$0")/common.sh"
 
 "$RESTITUTE" pair --psi 1 --method bem --tolerance 0.1 >out 2>err
@@ -17,10 +17,8 @@ expect 0 pair --psi 0.7 --method bem-paper --elements 16 --tolerance 0.1
 has out 'bem-paper, tolerance 0.1'
 expect 0 history --psi 0.7 --delta1 1 --gamma 1 --method bem --tolerance 0.01 --samples 20 --output history.csv
 [ "$(wc -l <history.csv)" -ge 20 ] || fail "rows of the history"
-expect 0 history --psi 0.7 --delta1 1 --gamma 1 --method bem --elements 16 --tolerance 0.1 --output h.csv --fields f.png
-[ -s f.png ] || fail "no figure of the fields"
-"$RESTITUTE" history --psi 0.7 --delta1 1 --gamma 1 --method bem --elements 16 --tolerance 0.1 --output h.csv --fields f.h5 2>err
-if ! grep -q 'HDF5 is not in this build' err; then
+if have_module h5py; then
+    expect 0 history --psi 0.7 --delta1 1 --gamma 1 --method bem --elements 16 --tolerance 0.1 --output h.csv --fields f.h5
     [ -s f.h5 ] || fail "no file of the fields"
     if have_h5py; then
         "$python" -c 'import h5py; f = h5py.File("f.h5"); print(f["pressure"].shape, f["stick"].shape)' >dump
@@ -29,7 +27,7 @@ if ! grep -q 'HDF5 is not in this build' err; then
 fi
 absent f.h5.tmp
 refused 'needs --method bem' history --psi 0.7 --fields f.h5
-refused 'must end in .h5, .hdf5, .svg or .png' history --psi 0.7 --method bem --fields f.csv
+refused 'must end in .h5 or .hdf5' history --psi 0.7 --method bem --fields f.csv
 refused 'no instantaneous modulus' pair --psi 0.7 --delta1 1 --gamma 0 --method bem
 expect 0 pair --material "$materials/polyisobutylene.json" --radius 0.005 --density 7800 --friction 0.3 --velocity 1 --angle 30 \
     --method bem --tolerance 0.01 --format csv

@@ -74,6 +74,9 @@ def _run(words):
         emit(_version())
     elif word in COMMANDS or word in OLD_NAMES:
         name = OLD_NAMES.get(word, word)
+        if word == "sweep" and any(other.partition("=")[0] in ("--grid", "--input")
+                                   for other in words):
+            name = "pair"
         parser, module = parser_of(name)
         try:
             arguments = parser.parse(words[1:])
@@ -98,14 +101,14 @@ def _usage():
 
 def _version():
     import restitute
-    from restitute._places import LIBRARIES
+    from restitute._library import available
 
     text = f"restitute {restitute.version()}\nLicence: BSD-3-Clause."
     for component, (library, number, kind) in _LICENCES.items():
-        if component in LIBRARIES:
+        if available(component):
             text += (f"\nThis build links {library}, which is under the GNU General Public "
-                     f"License, version {number} or\nlater, for the {kind} {component}: it can be passed on "
-                     "under that licence only.")
+                     f"License, version {number} or\nlater, for the {kind} {component}: it can be "
+                     "passed on under that licence only.")
     return text + "\n"
 
 

@@ -70,7 +70,7 @@ class Field:
     def __init__(self, row):
         cells = re.split(r" ?\| ?", " ".join(row.split()), maxsplit=4)
         names, self.unit, ends, special, help = cells
-        self.name, *self.older = names.split()
+        self.name, self.older = names.split()[0], names.split()[1:]
         self.key, self.option = self.name + _SUFFIXES[self.unit], "--" + self.name.replace("_", "-")
         low, high = ends[1:-1].split(", ")
         self.low, self.high = number(low), number(high)
@@ -138,7 +138,7 @@ def read_switch(text, place):
 
 def add_fields(group, fields):
     """Options of the fields of these names."""
-    for field in map(FIELDS.get, fields):
+    for field in (FIELDS[name] for name in fields):
         options.add(group, field.option[2:], "NUMBER", field.help, field.read, also=field.older)
 
 
@@ -302,11 +302,17 @@ def _complete(given, place):
     for name in ("radius", "speed", "friction"):
         if name not in given:
             raise _missing(name, place)
-    words = given["material"], given.get("partner", "rigid")
-    if words == (str(words[0]), "rigid") and not given.keys() & {"density", "mass"}:
-        density = material_of(words[0]).density
-        if density > 0:
+    material = given["material"]
+    if not given.keys() & {"density", "mass"} and isinstance(material, str):
+        density = material_of(material).density
+        if density > 0 and given.get("partner", "rigid") == "rigid":
             given["density"] = density
+    elif not given.keys() & {"density", "mass"} and isinstance(material[0], str):
+        density = [material_of(name).density for name in material]
+        if not all(value > 0 for value in density):  # of one of the rows
+            raise Refusal(f"{place('density')} or {place('mass')} is missing: must be > 0 (the "
+                          "material gives no density)")
+        given["density"] = density
 
 
 def _missing(name, place):

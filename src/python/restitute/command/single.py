@@ -64,7 +64,8 @@ def run(arguments):
                         ("contours", "--grid or --input, and --figure"),
                         ("threads", "--input or --grid"), ("scheduler", "--input or --grid")):
         if name in arguments.given:
-            raise Refusal(f"--{name}: needs {needs}")
+            value = getattr(arguments, name)
+            raise Refusal(f"--{name}{'' if value is True else f' = {value}'}: needs {needs}")
     files.check(arguments.output, "--output")
     import restitute
 
