@@ -53,22 +53,20 @@ def sheet(panels: int = 1, title: str = "", note: str = "", origin: str = "", *,
     >>> from restitute import plot
     >>> ax = plot.sheet(title="Steel on rubber", note="friction 0.3")
     """
-    lines = textwrap.wrap(_plain(note), 62 * panels)
-    head = 0.24 * bool(title or origin) + 0.2 * len(lines) + 0.08
+    lines = textwrap.wrap(_plain(note), 62 * panels) + [_plain(origin)] * bool(origin)
+    head = 0.24 * bool(title) + 0.2 * len(lines) + 0.08
     size = ({1: 7.4, 2: 10.8}.get(panels, 4.5 * panels), 4.2 + head)
     with matplotlib.rc_context(STYLE):
         if shown:
             from matplotlib import pyplot
 
-            figure = pyplot.figure(figsize=size)
+            figure = pyplot.figure(figsize=size, layout="constrained")
         else:
-            figure = Figure(figsize=size)
-        figure.set_constrained_layout(True)
+            figure = Figure(figsize=size, layout="constrained")
         cells = figure.add_gridspec(2, panels, height_ratios=[head, 4.2])
         top = figure.add_subplot(cells[0, :])
         top.axis("off")
         top.text(0, 1, _plain(title), size=13, va="top", transform=top.transAxes)
-        top.text(1, 1, _plain(origin), size=8, va="top", ha="right", color="#777777", transform=top.transAxes)
         top.text(0, 0, "\n".join(lines), size=9.5, va="bottom", color="#555555", transform=top.transAxes)
         axes = np.array([figure.add_subplot(cells[1, i]) for i in range(panels)])
     return axes[0] if panels == 1 else axes
