@@ -12,9 +12,14 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${RESTITUTE_COMPONENTS})
 list(TRANSFORM CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS PREPEND "${PROJECT_BINARY_DIR}/src/")
 list(APPEND CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/src")
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gnuplot-nox, gfortran")
+if(RESTITUTE_WITH_PYTHON)
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3, python3-numpy, python3-cffi")
+  set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-matplotlib, python3-h5py, python3-tqdm")
+endif()
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gnuplot-nox, gfortran, python3-distributed, python3-mpi4py")
 set(CPACK_PACKAGE_DESCRIPTION
     "Restitution pairs of viscoelastic spheres that hit obliquely, with
 friction, by the Method of Dimensionality Reduction: the command
-restitute, the libraries for C and C++, the modules for Fortran.")
+restitute, the Python package, the libraries for C and C++, the modules
+for Fortran.")
 include(CPack)

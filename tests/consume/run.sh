@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs the package, moves the tree, and builds and runs the programs of project/ against it:
 #   run.sh shared|static
-# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS SANITIZED, and WITH_
-# FILES CONTACT CVODE TABLE TABLE_FILES BEM FIT COMMAND FORTRAN OPENMP. The working directory is
+# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS SANITIZED PYTHON, and
+# WITH_ FILES CONTACT CVODE TABLE TABLE_FILES BEM FIT COMMAND PYTHON FORTRAN OPENMP. The working directory is
 # used up.
 set -eu
 
@@ -190,4 +190,14 @@ if [ "$WITH_COMMAND" != OFF ]; then
     echo "== the installed command finds its libraries"
     unset LD_LIBRARY_PATH
     second/bin/restitute --version
+fi
+packages=$(find "$prefix" -path '*-packages/restitute/__init__.py')
+if [ "$kind" = shared ] && [ "$WITH_PYTHON" != OFF ]; then
+    echo "== the installed Python package finds its libraries and materials"
+    [ -n "$packages" ] || fail "no Python package is installed"
+    PYTHONPATH=$(dirname "$(dirname "$packages")") PYTHONDONTWRITEBYTECODE=1 "$PYTHON" -c "
+import restitute
+steel = restitute.material('steel')
+print(restitute.pair(steel, radius=0.01, density=7800, speed=0.1, angle=[0, 30], friction=0.1).ex)
+assert restitute.__file__.startswith('$prefix')"
 fi

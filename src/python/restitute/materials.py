@@ -44,6 +44,8 @@ class Material:
         What a file says; empty without one.
     density : float
         kg/m^3; nan if none is given.
+    parts : tuple of two Materials, or None
+        Those of an effective solid.
 
     Raises
     ------
@@ -62,7 +64,7 @@ class Material:
                  parts: tuple[Material, Material] | None = None):
         self._handle = ffi.gc(handle, _library.core.restitute_material_destroy)
         self.name, self.source, self.model, self.density = name, source, model, density
-        self._parts = parts
+        self.parts = parts
         self.address = int(ffi.cast("uintptr_t", handle))
 
     @classmethod
@@ -216,8 +218,8 @@ class Material:
         if time_shift == 1:
             return self
         about = {"name": self.name, "source": self.source, "model": self.model, "density": self.density}
-        if self._parts:
-            return Material.effective(*(part.shifted(time_shift) for part in self._parts), **about)
+        if self.parts:
+            return Material.effective(*(part.shifted(time_shift) for part in self.parts), **about)
         s = self.series
         return Material.prony(s.relaxation_time * time_shift, s.modulus, s.equilibrium_modulus,
                               s.parallel_viscosity * time_shift, self.poisson_ratio, **about)
@@ -235,7 +237,7 @@ class Material:
 
     def __reduce__(self):
         about = (self.name, self.source, self.model, self.density)
-        return _again, (about, self._parts or (*self.series, self.poisson_ratio))
+        return _again, (about, self.parts or (*self.series, self.poisson_ratio))
 
     def __repr__(self):
         s = self.series

@@ -1,32 +1,30 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Options, methods, and solving records of impacts: in pieces here, in chunks elsewhere."""
+"""Options, methods, and solving impacts: in pieces here, in chunks elsewhere."""
 from __future__ import annotations
 
 import difflib
 import time
-from typing import Any, Callable, NamedTuple
+from contextlib import contextmanager
+from typing import Any, Callable, Iterator, NamedTuple
 
 import numpy as np
 
 from restitute import _library, errors
-from restitute._library import ffi
+from restitute._library import call, core, ffi, pointer
 from restitute.executor import map_chunks
 from restitute.scenes import Impacts
 
-__all__ = ["METHODS", "OPTIONS", "Solved", "methods", "options", "solve_records"]
+__all__ = ["METHODS", "OPTIONS", "Solved", "methods", "options", "solve_impacts", "solver"]
 
-#: Component and function of each method.
-METHODS = {"euler": ("core", "restitute_method_euler"), "sync": ("core", "restitute_method_sync"),
-           "cvode": ("cvode", "restitute_method_cvode"), "cvode-bdf": ("cvode", "restitute_method_cvode_bdf"),
-           "cvode-adams": ("cvode", "restitute_method_cvode_adams"), "bem": ("bem", "restitute_method_bem"),
-           "bem-paper": ("bem", "restitute_method_bem_paper")}
+#: Component of each method.
+METHODS = {"euler": "core", "sync": "core", "cvode": "cvode", "cvode-bdf": "cvode",
+           "cvode-adams": "cvode", "bem": "bem", "bem-paper": "bem"}
 
-#: Members of restitute_options that are keywords of `pair`, `history` and `collide`; their ranges and defaults are in
-#: include/restitute/restitute.h.
-OPTIONS = ("tolerance", "elements", "time_step", "threads", "max_work", "time_limit", "speed_limit", "radius_limit",
-           "displacement_limit", "dundurs_limit")
+#: Members of restitute_options that are keywords.
+OPTIONS = ("tolerance", "elements", "time_step", "threads", "max_work", "time_limit",
+           "speed_limit", "radius_limit", "displacement_limit", "dundurs_limit")
 
-_PIECE_SECONDS = 0.2  # between two looks for Ctrl-C; each piece costs a solver a thread, some 10 us
+_PIECE = 0.2  # s between two looks for Ctrl-C. A piece costs one solver a thread, some 10 us.
 
 
 def methods() -> list[str]:
@@ -35,55 +33,68 @@ def methods() -> list[str]:
     >>> "sync" in methods()
     True
     """
-    return [name for name, (component, _) in METHODS.items() if _library.available(component)]
+    return [name for name, component in METHODS.items() if _library.available(component)]
 
 
-def method_of(name: str) -> Any:
-    """The library's method of this name."""
+def _method(name):
     if name not in METHODS:
         near = difflib.get_close_matches(str(name), METHODS, 1)
-        raise errors.DomainError(f"method = {name!r}: {f'did you mean {near[0]}? ' if near else ''}must be one of "
-                                 f"{', '.join(methods())}")
-    component, function = METHODS[name]
-    if not _library.available(component):
-        raise errors.MissingComponent(f"method = {name!r}: the component {component} is not installed with this package")
-    return getattr(getattr(_library, component), function)()
+        raise errors.DomainError(f"method = {name!r}: {f'did you mean {near[0]}? ' if near else ''}"
+                                 f"must be one of {', '.join(methods())}")
+    library = getattr(_library, METHODS[name])
+    return getattr(library, f"restitute_method_{name.replace('-', '_')}")()
 
 
 def options(method: str = "euler", **members: Any) -> Any:
-    """restitute_options with these members, checked by the library. None stands for the default.
+    """restitute_options with these members, checked by the library; None is the default.
 
     Raises
     ------
     DomainError, MissingComponent, TypeError
         The text names the value and its range.
     """
-    for name in members:
+    value = _library.struct("options")
+    value.method = _method(method)
+    for name, member in members.items():
         if name not in OPTIONS:
             raise TypeError(f"'{name}' is no option: {', '.join(OPTIONS)}")
-    value = _library.struct("options")
-    value.method = method_of(method)
-    for name, member in members.items():
-        if member is not None:
-            try:
+        try:
+            if member is not None:
                 setattr(value, name, member)
-            except (TypeError, OverflowError):
-                raise errors.DomainError(f"{name} = {member!r}: is not a number of its kind") from None
-    _library.call(_library.core.restitute_solve_many, 0, ffi.NULL, value, ffi.NULL, ffi.NULL)
+        except (TypeError, OverflowError):
+            raise errors.DomainError(f"{name} = {member!r}: is no number of its kind") from None
+    call(core.restitute_solve_many, 0, ffi.NULL, value, ffi.NULL, ffi.NULL)
     return value
 
 
+@contextmanager
+def solver(settings: Any) -> Iterator[Any]:
+    """A solver of the library with these options."""
+    made = ffi.new("restitute_solver **")
+    call(core.restitute_solver_create, settings, made)
+    try:
+        yield made[0]
+    finally:
+        core.restitute_solver_destroy(made[0])
+
+
 class Solved(NamedTuple):
-    """What came out, in flat order. Records hold no addresses, so that they can be sent."""
+    """What came out, in flat order; without addresses, so that it can be sent."""
 
     results: np.ndarray
     status: np.ndarray
     ledgers: np.ndarray | None
-    messages: dict  # of int to str, where the library was asked case by case
+    messages: dict  #: of int to str, of impacts that were solved one by one
+
+    @classmethod
+    def empty(cls, count: int, energies: bool = False) -> Solved:
+        ledgers = _library.structs("ledger", count) if energies else None
+        return cls(_library.structs("result", count), np.zeros(count, np.int32), ledgers, {})
 
 
-def solve_records(impacts: Impacts, settings: dict, *, energies: bool = False, stop: bool = False, executor: Any = None,
-                  chunk: int | None = None, retries: int = 3, progress: Callable[[int, int], Any] | None = None) -> Solved:
+def solve_impacts(impacts: Impacts, settings: dict, *, energies: bool = False, stop: bool = False,
+                  executor: Any = None, chunk: int | None = None, retries: int = 3,
+                  progress: Callable[[int, int], Any] | None = None) -> Solved:
     """Solve impacts in flat order.
 
     Parameters
@@ -91,101 +102,88 @@ def solve_records(impacts: Impacts, settings: dict, *, energies: bool = False, s
     settings : dict
         Keywords of `options`.
     energies : bool
-        With ledgers, case by case in one thread.
+        With ledgers, one by one in one thread.
     stop : bool
         End with the first piece or chunk that has a failure.
     executor, retries
-        As in `restitute.executor.map_chunks`; each chunk is solved by one thread.
+        As in `restitute.map_chunks`; each chunk is solved by one thread.
     chunk : int, optional
-        Impacts a chunk; by default so many that there are 64 chunks, and at most 4096.
+        Impacts a chunk; by default there are 64 chunks or more, of at most 4096 impacts.
     progress : callable
         Called with the number of impacts done and of all.
     """
     total = len(impacts)
-    if executor is None:
+    if executor is None or total == 0:
         return _solve_here(impacts, settings, energies, stop, progress)
-    size = chunk or min(max(1, -(-total // 64)), 4096)
-    tasks = [(impacts[i:i + size], {**settings, "threads": 1}, energies) for i in range(0, total, size)]
+    size = chunk or min(-(-total // 64), 4096)
+    tasks = [(impacts[i:i + size], {**settings, "threads": 1}, energies, stop, None)
+             for i in range(0, total, size)]
 
     def count(done, _):
         if progress:
             progress(min(done * size, total), total)
 
-    parts = []
+    solved, begin = Solved.empty(total, energies), 0
     for part in map_chunks(_solve_task, tasks, executor, retries=retries, progress=count):
-        parts.append(part)
+        end = begin + len(part.status)
+        for whole, piece in zip(solved[:3], part[:3]):
+            if whole is not None:
+                whole[begin:end] = piece
+        solved.messages.update({begin + i: text for i, text in part.messages.items()})
+        begin = end
         if stop and np.any(part.status < 0):
             break
-    if not parts:
-        return _solve_here(impacts, settings, energies, stop, None)
-    ledgers = np.concatenate([p.ledgers for p in parts]) if energies else None
-    messages = {i * size + index: text for i, p in enumerate(parts) for index, text in p.messages.items()}
-    return Solved(np.concatenate([p.results for p in parts]), np.concatenate([p.status for p in parts]), ledgers, messages)
+    return solved
 
 
 def _solve_task(task: tuple) -> Solved:
-    return _solve_here(*task, False, None)
+    return _solve_here(*task)
 
 
 def _solve_here(impacts, settings, energies, stop, progress):
     value, total = options(**settings), len(impacts)
-    solved = Solved(_library.structs("result", total), np.zeros(total, np.int32),
-                    _library.structs("ledger", total) if energies else None, {})
+    solved = Solved.empty(total, energies)
     begin, piece = 0, max(1, value.threads)
-    with _solver(value) as solver:
-        while begin < total:
+    with solver(value) as made:
+        while begin < total and not (stop and np.any(solved.status[:begin] < 0)):
             end, since = min(begin + piece, total), time.monotonic()
             if energies or total == 1:
-                _solve_singly(impacts, solver, solved, begin, end)
+                solve_singly(impacts, made, solved, begin, end)
             else:
                 _solve_piece(impacts, value, solved, begin, end)
-            took = time.monotonic() - since
-            piece = 2 * piece if took < _PIECE_SECONDS / 2 else max(1, value.threads, piece // 2) if took > 2 * _PIECE_SECONDS else piece
-            begin = end
+            took, begin = time.monotonic() - since, end
+            if took < _PIECE / 2:
+                piece *= 2
+            elif took > 2 * _PIECE:
+                piece = max(1, value.threads, piece // 2)
             if progress:
                 progress(begin, total)
-            if stop and np.any(solved.status[:end] < 0):
-                break
     solved.results["method"] = 0
     return solved
 
 
-class _solver:
-    """A solver of the library, for a with statement."""
-
-    def __init__(self, settings):
-        self.pointer = ffi.new("restitute_solver **")
-        _library.call(_library.core.restitute_solver_create, settings, self.pointer)
-
-    def __enter__(self):
-        return self.pointer[0]
-
-    def __exit__(self, *_):
-        _library.core.restitute_solver_destroy(self.pointer[0])
-
-
 def _solve_piece(impacts, settings, solved, begin, end):
-    kind = impacts.kind
-    many = {"scene": _library.core.restitute_solve_scene_many, "impact": _library.core.restitute_solve_many}[kind]
-    error = ffi.new("restitute_error *")
-    solved.status[begin:end] = 1000  # stays if the call is refused as a whole
-    status = many(end - begin, _library.pointer(impacts.bound(begin, end), f"restitute_{kind}[]"), settings,
-                  _library.pointer(solved.results[begin:end], "restitute_result[]"),
-                  _library.pointer(solved.status[begin:end]), error)
-    if solved.status[begin] == 1000:
+    name = "solve_scene_many" if impacts.kind == "scene" else "solve_many"
+    error, refused = ffi.new("restitute_error *"), 1000
+    solved.status[begin:end] = refused  # stays where the call is refused as a whole
+    status = getattr(core, f"restitute_{name}")(
+        end - begin, pointer(impacts.bound(begin, end), f"restitute_{impacts.kind}[]"), settings,
+        pointer(solved.results[begin:end], "restitute_result[]"), pointer(solved.status[begin:end]),
+        error)
+    if solved.status[begin] == refused:
         raise _library.exception(status, _library.text(error.message))
 
 
-def _solve_singly(impacts, solver, solved, begin, end):
-    kind = impacts.kind
-    one = {"scene": _library.core.restitute_solve_scene, "impact": _library.core.restitute_solve}[kind]
-    cases = _library.pointer(impacts.bound(begin, end), f"restitute_{kind}[]")
-    results = _library.pointer(solved.results[begin:end], "restitute_result[]")
-    ledgers = None if solved.ledgers is None else _library.pointer(solved.ledgers[begin:end], "restitute_ledger[]")
+def solve_singly(impacts: Impacts, made: Any, solved: Solved, begin: int, end: int,
+                 samples: Any = ffi.NULL) -> None:
+    """Solve some impacts one by one, for their ledgers, messages and history."""
+    one = core.restitute_solve_scene if impacts.kind == "scene" else core.restitute_solve
+    cases = pointer(impacts.bound(begin, end), f"restitute_{impacts.kind}[]")
+    results = pointer(solved.results, "restitute_result[]")
+    ledgers = solved.ledgers is not None and pointer(solved.ledgers, "restitute_ledger[]")
     error = ffi.new("restitute_error *")
-    for i in range(end - begin):
-        ledger = ffi.NULL if ledgers is None else ledgers + i
-        solved.status[begin + i] = one(solver, cases + i, results + i, ledger, ffi.NULL, error)
-        text = _library.text(error.message)
-        if text:
-            solved.messages[begin + i] = text
+    for i in range(begin, end):
+        ledger = ledgers + i if ledgers else ffi.NULL
+        solved.status[i] = one(made, cases + (i - begin), results + i, ledger, samples, error)
+        if error.message[0] != b"\0":
+            solved.messages[i] = _library.text(error.message)

@@ -5,11 +5,13 @@ values to the keywords of `restitute.pair`.
 A field has one name everywhere: the option `--speed`, the keyword `speed`, and with its unit the
 column and JSON key `speed_m_s`. Older names are accepted.
 """
-import os
 import re
+from functools import lru_cache
+from itertools import combinations
 
 from restitute.command import options
 from restitute.command.options import Refusal, bounded, did_you_mean, number, read_number
+from restitute.errors import Error
 
 INFINITY = float("inf")
 _SUFFIXES = {"1": "", "m": "_m", "kg/m^3": "_kg_m3", "kg": "_kg", "kg m^2": "_kg_m2", "m/s": "_m_s",
@@ -25,7 +27,7 @@ delta2 | 1 | (0, 1e12] | | delta1 sqrt(gamma); instead of gamma or of delta1
 modulus1 modulus | Pa | [0, inf) | | instead of --material: shear modulus G1 of a standard solid,
     Pa; 0: Maxwell; alone: elastic
 youngs_modulus | Pa | (0, inf) | | instead of --modulus1: E = 2 (1+nu) G1, Pa
-shore_a | 1 | [20, 90] | | instead of --modulus1: hardness Shore A, S, of which Gent (1958) makes
+shore_a | 1 | [10, 95] | | instead of --modulus1: hardness Shore A, S, of which Gent (1958) makes
     E = 0.0981 MPa (56 + 7.62336 S)/(0.137505 (254 - 2.54 S)); a guide only
 modulus2 | Pa | (0, inf) | | G2, Pa, in series with the dashpot; without it Kelvin-Voigt
 viscosity | Pa s | (0, inf) | | eta of the dashpot, Pa s
@@ -118,7 +120,7 @@ def similar_column(column):
 
 def read_partner(text, place):
     """rigid, same, or what names the partner's own material."""
-    if text in ("rigid", "same") or _is_file(text) or text in names():
+    if text in ("rigid", "same") or text.endswith((".json", ".csv")) or text in names():
         return text
     raise Refusal(f'{place} = "{text[:64]}": must be rigid, same or a material file, .json or '
                   f".csv, or a name{did_you_mean(text, ['rigid', 'same', *names()])}")
@@ -145,7 +147,8 @@ def add_scene(parser, skip=()):
     group = parser.add_argument_group(
         "An impact in SI units, a sphere against a wall or a second sphere")
     options.add(group, "material", "FILE|NAME", "what deforms: a material file, .json, or .csv "
-                "with tau_s,G_Pa, or a name of restitute materials; this or --modulus1")
+                "with tau_s,G_Pa, or a name of restitute materials; this or --modulus1",
+                read_material)
     add_fields(group, [name for name in SI if name not in skip])
     options.add(group, "partner", "rigid|same|FILE|NAME", "rigid: one of the two bodies deforms "
                 "(default); same: both do, and are of the material; else the material of the "
@@ -200,23 +203,20 @@ def solution(arguments, **defaults):
 
 def read_method(text, place):
     """A method that this installation has."""
-    from restitute._places import LIBRARIES
+    from restitute.solving import METHODS, methods
 
-    needs = {"cvode": "SUNDIALS; Debian: libsundials-dev", "bem": "FFTW; Debian: libfftw3-dev"}
-    methods = {name: name.partition("-")[0] for name in (
-        "euler", "sync", "cvode", "cvode-bdf", "cvode-adams", "bem", "bem-paper")}
-    built = [name for name, part in methods.items() if part in LIBRARIES or part not in needs]
-    if text in built:
+    if text in methods():
         return text
-    among = f"must be among {', '.join(built)}{did_you_mean(text, built)}"
-    if text in methods:
-        part = methods[text]
+    among = f"must be among {', '.join(methods())}{did_you_mean(text, methods())}"
+    if text in METHODS:
+        part = METHODS[text][0]
+        needs = {"cvode": "SUNDIALS; Debian: libsundials-dev", "bem": "FFTW; Debian: libfftw3-dev"}
         raise Refusal(f'{place} = "{text}": the component {part} is not in this build '
                       f"({needs[part]}); {among}")
     raise Refusal(f'{place} = "{text[:64]}": is not in this build; {among}')
 
 
-# ----------------------------------------------------------------------------- values to keywords
+# ------------------------------------------------------------------------------ values to impacts
 
 
 def values_of(arguments):
@@ -230,8 +230,15 @@ def place_of_options(arguments):
     return lambda name: arguments.given.get(name, "--" + name.replace("_", "-"))
 
 
-def keywords(values, place):
-    """The keywords of `restitute.pair` for given values.
+def in_words_of(place, text):
+    """A message of the package with the user's names of the fields that it begins with."""
+    names, colon, rest = text.partition(":")
+    return re.sub(r"\b[a-z_]+[12]?\b", lambda word: place(word[0]) if word[0] in (*FIELDS, *WORDS)
+                  else word[0], names) + colon + rest
+
+
+def impacts(values, place):
+    """The `restitute.scenes.Impacts` of given values.
 
     Parameters
     ----------
@@ -245,167 +252,104 @@ def keywords(values, place):
     Refusal
         What is missing, or does not go together.
     """
-    physical = [name for name in values if name not in DIMENSIONLESS]
-    if physical and len(physical) < len(values):
-        raise Refusal("dimensionless values (chi, psi, delta1, gamma, delta2) and values in SI "
-                      "units or a material are both given: use one kind")
-    if not values:
+    from restitute.scenes import Impacts
+
+    keywords = _keywords(dict(values), place)
+    try:
+        made = Impacts(**keywords)
+    except (TypeError, Error) as why:
+        raise Refusal(in_words_of(place, str(why))) from None
+    if made.refused and not made.shape:
+        raise Refusal(in_words_of(place, made.refused[0]))
+    return made
+
+
+_MODULI = ("modulus1", "youngs_modulus", "shore_a")
+_EXCLUSIVE = (("density", "mass"), ("density2", "mass2"), *combinations(_MODULI, 2))
+
+
+def _keywords(given, place):
+    for one, other in _EXCLUSIVE:
+        if one in given and other in given:
+            raise Refusal(f"{place(one)} and {place(other)} are both given: one determines the "
+                          "other")
+    if not given:
         raise Refusal("no impact is described: give psi, delta1, gamma or a material, radius, "
                       "speed; see restitute pair --help")
-    return _scene(values, place) if physical else _impact(values, place)
+    if set(given) <= set(DIMENSIONLESS):
+        if "gamma" in given and "delta1" not in given and "delta2" not in given:
+            raise Refusal(f"{place('delta1')} is missing: {place('gamma')} needs delta1 "
+                          "(0: elastic) or delta2 beside it")
+        return given
+    if not set(given) & set(DIMENSIONLESS):
+        _complete(given, place)
+    return given
+
+
+def _complete(given, place):
+    """The material of moduli, and the density of a sphere that is of its material.
+
+    Against a rigid partner the sphere is what is of the material, unless its density is given.
+    """
+    moduli = [name for name in SOLID[:-1] if name in given]
+    if "material" in given and moduli:
+        raise Refusal(f"a material file and {place(moduli[0])} are both given: use one")
+    if "material" not in given:
+        given["material"] = _solid({name: given.pop(name) for name in moduli}, place)
+    for name in ("radius", "speed", "friction"):
+        if name not in given:
+            raise _missing(name, place)
+    words = given["material"], given.get("partner", "rigid")
+    if words == (str(words[0]), "rigid") and not given.keys() & {"density", "mass"}:
+        density = material_of(words[0]).density
+        if density > 0:
+            given["density"] = density
 
 
 def _missing(name, place):
     return Refusal(f"{place(name)} is missing: {FIELDS[name].allowed}")
 
 
-def _impact(values, place):
-    """(25): delta2 = delta1 sqrt(gamma) gives whichever of the two is missing."""
-    given = dict(values)
-    delta2 = given.pop("delta2", None)
-    if "psi" not in given:
-        raise _missing("psi", place)
-    if delta2 is None:
-        if "gamma" not in given and _any(given.get("delta1", 0) > 0):
-            raise Refusal(f"{place('gamma')} is missing: delta1 > 0 needs gamma (0: Kelvin-Voigt) "
-                          "or delta2")
-        if "gamma" in given and "delta1" not in given:
-            raise Refusal(f"{place('delta1')} is missing: {place('gamma')} needs delta1 "
-                          "(0: elastic) or delta2 beside it")
-        return given
-    if "delta1" in given and "gamma" in given:
-        raise Refusal("delta1, gamma and delta2 are given: two of them determine the third")
-    if "delta1" not in given and "gamma" not in given:
-        raise Refusal("delta2 needs delta1 or gamma beside it")
-    other = "gamma" if "gamma" in given else "delta1"
-    known = given[other]
-    if _any((known <= 0) | (known == INFINITY)):
-        at = "" if hasattr(known, "shape") else f" = {known:.15g}"
-        raise Refusal(f"{place(other)}{at}: must be finite and > 0 beside delta2")
-    if other == "gamma":
-        given["delta1"] = delta2 / known ** 0.5
-    else:
-        given["gamma"] = (delta2 / known) ** 2
-    return given
+def _solid(given, place):
+    """The solids of moduli, an array of their shape."""
+    from restitute.materials import shear_modulus, solids
 
-
-def _any(test):
-    return test.any() if hasattr(test, "any") else test
-
-
-def _scene(values, place):
-    for one, other in (("density", "mass"), ("density2", "mass2"), ("modulus1", "youngs_modulus"),
-                       ("modulus1", "shore_a"), ("youngs_modulus", "shore_a")):
-        if one in values and other in values:
-            raise Refusal(f"{place(one)} and {place(other)} are both given: one determines the "
-                          "other")
-    material = solid(values, place)
-    for name in ("radius", "speed", "friction"):
-        if name not in values:
-            raise _missing(name, place)
-    partner = values.get("partner", "rigid")
-    other = {"rigid": None, "same": material}.get(partner) or (
-        None if partner == "rigid" else material_of(partner, place("partner")))
-    scene = {name: values[name] for name in FIELDS if name in values and name not in SOLID}
-    _complete(scene, "", material, place)
-    if "radius2" in scene and _any(scene["radius2"] < INFINITY):
-        _complete(scene, "2", other, place)
-    for name in ("mass2", "density2", "inertia2", "spin2"):
-        value = scene.get(name, 0)
-        if "radius2" not in scene and _any((value != 0) & (value != INFINITY)):
-            raise Refusal(f"{place(name)} needs a partner sphere, {place('radius2')}")
-    if other not in (None, material):
-        if "time_shift" in values:
-            raise Refusal(f"{place('partner')} = {partner}: the material must be a file without "
-                          f"{place('time_shift')}")
-        material = material.paired(other)
-    if "rotation_blocked" in values:
-        scene["rotation_blocked"] = values["rotation_blocked"]
-    return {**scene, "material": material, "both_deform": partner == "same"}
-
-
-def _complete(scene, body, material, place):
-    """The density of a body is that of its material, if neither it nor the mass is given.
-
-    Against a rigid partner the sphere is what is of the material.
-    """
-    mass, density = f"mass{body}", f"density{body}"
-    if mass in scene or density in scene:
-        return
-    if material is None or not material.density > 0:
-        why = "" if material is None else " (the material gives no density)"
-        raise Refusal(f"{place(density)} or {place(mass)} is missing: must be > 0{why}")
-    scene[density] = material.density
+    ratio, modulus1 = given.get("poisson_ratio", 0.5), given.get("modulus1")
+    if modulus1 is None and ("youngs_modulus" in given or "shore_a" in given):
+        modulus1 = shear_modulus(youngs=given.get("youngs_modulus"), shore_a=given.get("shore_a"),
+                                 poisson_ratio=ratio)
+    if modulus1 is None:
+        raise Refusal(f"{place('material')} is missing: a material file, .json or .csv, or a name "
+                      f"(or {place('modulus1')} and what belongs to it)")
+    if "modulus2" in given and "viscosity" not in given:
+        raise _missing("viscosity", place)
+    if "modulus2" not in given and not (modulus1 != 0 if isinstance(modulus1, float) else
+                                        modulus1.all()):
+        raise _missing("modulus2", place)
+    return solids(modulus1, given.get("modulus2", INFINITY), given.get("viscosity", 0.0), ratio)
 
 
 # -------------------------------------------------------------------------------------- materials
 
 
-def _is_file(text):
-    return os.sep in text or os.path.splitext(text)[1].lower() in (".json", ".csv")
-
-
 def names():
     """The materials that are known by name."""
-    from restitute import material
+    from restitute import material_names
 
-    return getattr(material, "names", list)()
-
-
-_read = {}
+    return material_names()
 
 
-def material_of(text, place="--material"):
+def read_material(text, place):
+    """What names a material: a file, or a name."""
+    if text.endswith((".json", ".csv")) or text in names():
+        return text
+    raise Refusal(f'{place} = "{text[:64]}": must end in .json or .csv, or be one of '
+                  f"{', '.join(names())}{did_you_mean(text, names())}")
+
+
+@lru_cache(maxsize=None)
+def material_of(text):
     """The material of a file or of a name, read once."""
     import restitute
 
-    if text not in _read:
-        if not _is_file(text) and text not in names():
-            raise Refusal(f'{place} = "{text[:64]}": must end in .json or .csv, or be a name of '
-                          f"restitute materials{did_you_mean(text, names())}")
-        _read[text] = (restitute.Material.read if _is_file(text) else restitute.material)(text)
-    return _read[text]
-
-
-def shear_modulus(values):
-    """G1 in Pa: as given, by Young's modulus, or by the hardness Shore A.
-
-    Of the hardness by Gent, Rubber Chemistry and Technology 31 (1958), 896.
-    """
-    young = values.get("youngs_modulus")
-    if "shore_a" in values:
-        shore = values["shore_a"]
-        young = 0.0981e6 * (56 + 7.62336 * shore) / (0.137505 * (254 - 2.54 * shore))
-    if young is None:
-        return values.get("modulus1")
-    return young / (2 * (1 + values.get("poisson_ratio", 0.5)))
-
-
-def solid(values, place):
-    """The solid of single values, of a material or of numbers, its times shifted."""
-    from restitute import Material
-
-    shift = values.get("time_shift", 1.0)
-    moduli = [name for name in SOLID[:-1] if name in values]
-    if "material" in values:
-        if moduli:
-            raise Refusal(f"a material file and {place(moduli[0])} are both given: use one")
-        material = material_of(values["material"], place("material"))
-        return material if shift == 1 else material.shifted(shift)
-    modulus1, modulus2 = shear_modulus(values), values.get("modulus2")
-    if modulus1 is None:
-        raise Refusal(f"{place('material')} is missing: a material file, .json or .csv, or a name "
-                      f"(or {place('modulus1')} and what belongs to it)")
-    if modulus2 is not None and "viscosity" not in values:
-        raise _missing("viscosity", place)
-    if modulus1 == 0 and modulus2 is None:
-        raise _missing("modulus2", place)
-    about = {"poisson_ratio": values.get("poisson_ratio", 0.5), "name": "Solid of given moduli"}
-    if "viscosity" not in values:
-        return Material.elastic(modulus1, **about)
-    viscosity = values["viscosity"] * shift
-    if modulus1 == 0:
-        return Material.maxwell(modulus2, viscosity, **about)
-    if modulus2 is None:
-        return Material.kelvin_voigt(modulus1, viscosity, **about)
-    return Material.standard_solid(modulus1, modulus2, viscosity, **about)
+    return restitute.material(text)

@@ -1,23 +1,27 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`restitute pair`: the restitution pair of one impact; of many by the module batch."""
 from restitute.command import options, problem
+from restitute.command.options import Refusal, number_text, say, shown
 
 _EPILOG = """One impact:
   restitute pair --chi 7/6 --psi 2 --delta1 1 --gamma 1
-  restitute pair --material polyisobutylene.json --radius 0.005 --density 7800 --friction 0.3 --speed 1 --angle 30
+  restitute pair --material polyisobutylene --radius 0.005 --density 7800 --friction 0.3 \\
+      --speed 1 --angle 30
 Many, from a file or a grid:
   restitute pair --input cases.csv --output results.csv
-  restitute pair --material polyisobutylene.json --radius 0.005 --density 7800 --friction 0.3 \\
+  restitute pair --material polyisobutylene --radius 0.005 --density 7800 --friction 0.3 \\
       --grid speed=0.1:10:9:log,angle=5:85:9 --output grid.csv --figure grid.svg
 
 Columns of CASES.csv:
 {columns}
-Options give the values of columns that are absent. A result row holds the input columns, then ez, ex,
-contact_time, max_indentation (s and m; T and d0 if dimensionless), error_ez, error_ex, method and status,
-which is empty or tells why the row failed. Provenance goes into FILE.meta.json.
+rotation_blocked is 0 or 1. Options give the values of columns that are absent. A result row holds
+the input columns, then ez, ex, contact_time, max_indentation (s and m; T and d0 if dimensionless),
+error_ez, error_ex, method and status, which is empty or tells why the row failed. Provenance goes
+into FILE.meta.json.
 
-ez, ex: minus the velocity after over the velocity before, normal and tangential, of the contact point.
-Exit status: 0 done, 1 some rows failed, 2 bad usage or input, nothing written, 130 interrupted.
+ez, ex: minus the velocity after over the velocity before, normal and tangential, of the contact
+point. Exit status: 0 done, 1 some rows failed, 2 bad usage or input, nothing written, 130
+interrupted.
 """
 
 
@@ -33,19 +37,18 @@ def add(subparsers):
     options.add(group, "format", "text|csv|json", "default text for one impact, csv for many",
                 options.one_of("text", "csv", "json"))
     options.add(group, "input", "CASES.csv", "one impact a row, columns by name; -: standard input")
-    options.add(group, "grid", "AXES",
-                "one or two axes NAME=FROM:TO:N[:log], NAME of any number above, or material=FILE:FILE:...: all "
-                "impacts of the grid, for example speed=0.1:10:9:log,angle=5:85:9")
+    options.add(group, "grid", "AXES", "one or two axes NAME=FROM:TO:N[:log], NAME of any number "
+                "above, or material=FILE:FILE:...: all impacts of the grid, for example "
+                "speed=0.1:10:9:log,angle=5:85:9")
     options.add(group, "output", "FILE", "write here and not to standard output")
-    options.add(group, "figure", "FILE",
-                "with --grid, or --input with one or two columns that vary: a figure of it, .svg, .png or .pdf; needs "
-                "matplotlib")
-    options.add_flag(group, "contours", "with --figure: contours over both axes, the last one to the right")
-    options.add(group, "threads", "N",
-                "with --input and --grid: number of threads, 1 to 1024; default all processors",
-                options.bounded(1, 1024, whole=True))
-    options.add(group, "scheduler", "ADDRESS",
-                "with --input and --grid: solve on the workers of this dask scheduler; needs dask.distributed")
+    options.add(group, "figure", "FILE", "with --grid, or --input with one or two columns that "
+                "vary: a figure of it, .svg, .png or .pdf; needs matplotlib")
+    options.add_flag(group, "contours",
+                     "with --figure: contours over both axes, the last one to the right")
+    options.add(group, "threads", "N", "with --input and --grid: number of threads, 1 to 1024; "
+                "default all processors", options.bounded(1, 1024, whole=True))
+    options.add(group, "scheduler", "ADDRESS", "with --input and --grid: solve on the workers of "
+                "this dask scheduler; needs dask.distributed")
     options.add_flag(group, "resume", "continue an interrupted run from FILE.partial")
 
 
@@ -55,9 +58,180 @@ def run(arguments):
         from restitute.command import batch
 
         return batch.run(arguments)
-    import restitute
+    from restitute.command import files, provenance
 
-    keywords = problem.keywords(problem.values_of(arguments), problem.place_of_options(arguments))
-    result = restitute.pair(**keywords, **problem.solution(arguments))
-    options.emit(f"ez = {result.ez:9.6f} +- {result.error_ez:.1e}\nex = {result.ex:9.6f} +- {result.error_ex:.1e}\n")
+    for name, needs in (("figure", "--grid"), ("resume", "--input or --grid"),
+                        ("contours", "--grid or --input, and --figure"),
+                        ("threads", "--input or --grid"), ("scheduler", "--input or --grid")):
+        if name in arguments.given:
+            raise Refusal(f"--{name}: needs {needs}")
+    files.check(arguments.output, "--output")
+    impact, result = solve(arguments, [("--output", arguments.output)])
+    write = {None: _text, "text": _text, "csv": _csv, "json": _json}[arguments.format]
+    units = dict.fromkeys(("ez", "ex", "error_ez", "error_ex"), "1")
+    units.update(_UNITS if impact.kind == "scene" else _SCALES, work="nominal s")
+    record = provenance.record(arguments, provenance.settings(arguments, {"input": None}), units)
+    content = write(arguments, impact, result, record)
+    if arguments.format == "json":
+        files.write((arguments.output, content))
+    else:
+        provenance.write(arguments.output, content, record)
     return 0
+
+
+def solve(arguments, outputs, function=None, **more):
+    """The impact that the options describe, and what came out; remarks go to standard error.
+
+    Parameters
+    ----------
+    outputs : list of (option, path)
+        None of them may be an input, or another one.
+    function : callable
+        Instead of `restitute.impact.solve`.
+    """
+    import warnings
+
+    from restitute import impact
+    from restitute.command import files, provenance
+
+    values = problem.values_of(arguments)
+    one = problem.impacts(values, problem.place_of_options(arguments))
+    places = files.Places()
+    for name in ("material", "partner"):
+        if values.get(name) not in (None, "rigid", "same"):
+            places.read(f"--{name}", values[name])
+            places.read("prony_csv", provenance.series_of(values[name]))
+    for option, path in outputs:
+        places.write(option, path, ".meta.json")
+    places.check()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the message says the same of one impact
+        result = (function or impact.solve)(one, **problem.solution(arguments),
+                                            **(more or {"energies": True}))
+    if result.message():
+        say(f"remark: {result.message()}")
+    return one, result
+
+
+_UNITS = {"contact_time": "s", "max_indentation": "m", "max_contact_radius": "m",
+          "max_normal_force": "N", "element_spacing": "m", "time_step": "s"}
+_SCALES = {"contact_time": "T", "max_indentation": "d0", "max_contact_radius": "a_el",
+           "max_normal_force": "m v_z0^2/d0", "element_spacing": "a_el", "time_step": "T"}
+_NUMBERS = ("chi", "psi", "delta1", "gamma", "delta2")
+
+
+def _text(arguments, impact, result, record):
+    numbers, ledger = impact.numbers(), result.ledger
+    shown_numbers = "  ".join(f"{name} = {getattr(numbers, name):.6g}" for name in _NUMBERS
+                              if getattr(numbers, name) == getattr(numbers, name))
+    chi, ez = numbers.chi, result.ez
+    critical = 2 * chi * (1 + ez) - ez if 2 * chi > 1 else 1.0  # (31)
+    lines = [f"restitute {record['version']}: {shown(impact.describe())}", *_note(arguments, impact),
+             "", "Restitution",
+             f"  normal       ez = {result.ez:9.6f} +- {result.error_ez:.1e}",
+             f"  tangential   ex = {result.ex:9.6f} +- {result.error_ex:.1e}"]
+    if result.status:
+        lines.append(f"  remark: {_remark(result)}")
+    lines += ["", "Impact", *_lengths(impact, result, numbers), *_limits(impact, result), "",
+              "Dimensionless numbers", f"  {shown_numbers}",
+              f"  slip lasts to the end of contact from psi = {critical:.6g} on", "",
+              "Energy, as fractions of what came in",
+              "              rebound    friction     viscous        left    residual",
+              f"  normal     {ledger.rebound_z:8.5f}           -    {ledger.viscous_z:8.5f}    "
+              f"{ledger.left_z:8.5f}    {ledger.residual_z:8.1e}",
+              f"  tangential {ledger.rebound_x:8.5f}    {ledger.friction_x:8.5f}    "
+              f"{ledger.viscous_x:8.5f}    {ledger.left_x:8.5f}    {ledger.residual_x:8.1e}",
+              "", "Numerics", *_numerics(impact, result)]
+    return "\n".join(lines) + "\n"
+
+
+def _note(arguments, impact):
+    """Which of the two bodies is of the material, where that was concluded."""
+    given = arguments.given
+    if impact.kind == "scene" and not {"density", "mass"} & given.keys() and "partner" not in given:
+        density = impact.solids[0].density
+        yield (f"  taken: the sphere is of the material, {density:g} kg/m^3, and the partner rigid; "
+               "if it is not, give --density")
+
+
+def _lengths(impact, result, numbers):
+    units = _UNITS if impact.kind == "scene" else _SCALES
+    for label, name, scale in (("contact time", "contact_time", "time"),
+                               ("largest indentation", "max_indentation", "length_z"),
+                               ("largest contact radius", "max_contact_radius", "length_x"),
+                               ("largest normal force", "max_normal_force", "force")):
+        value, unit = getattr(result, name), getattr(numbers, scale)
+        relative = f"   ({value / unit:.6g} {_SCALES[name]})" if unit > 0 else ""
+        yield f"  {label:22} {value:<12.6g} {units[name]}{relative}"
+
+
+def _limits(impact, result):
+    """How far the scene strains the model, and what of it passes a limit, in words."""
+    from restitute.impact import LIMITS
+
+    if impact.kind != "scene":
+        return
+    yield from ("", "Model limits")
+    labels = ("v_z0/wave speed", "contact radius/R", "slide/contact radius", "Dundurs' beta")
+    for label, (flag, _, option, member, _) in zip(labels, LIMITS):
+        limit = getattr(result.settings, option)
+        yield f"  {label:22} {getattr(result, member):<12.3g} (limit {limit:g})"
+        yield from (f"    passed: {text}" for text in _flags(result.flags & flag))
+
+
+def _flags(flags):
+    """What the model neglects, of each flag."""
+    from restitute import _library
+
+    return [_library.text(_library.core.restitute_flag_text(bit)) for bit in (1, 2, 4, 8)
+            if flags & bit]
+
+
+def _numerics(impact, result):
+    units = _UNITS if impact.kind == "scene" else _SCALES
+    return [f"  {'method':22} {result.method}, tolerance {result.settings.tolerance:g}",
+            f"  {'elements':22} {result.elements}, spacing {result.element_spacing:.6g} "
+            f"{units['element_spacing']}",
+            f"  {'steps':22} {result.steps} of {result.time_step:.6g} {units['time_step']}",
+            f"  {'work':22} {result.work:.3g} nominal seconds",
+            f"  {'relaxation times merged':22} {result.terms_merged}, bound on their effect "
+            f"{result.merging_bound:.1e}"]
+
+
+def _csv(arguments, impact, result, record):
+    """The options given become the input columns."""
+    import csv
+    import io
+
+    row = {problem.FIELDS[name].key if name in problem.FIELDS else name:
+           "1" if value is True else value if isinstance(value, str) else number_text(value)
+           for name, value in problem.values_of(arguments).items()}
+    row.update((name, number_text(getattr(result, name))) for name in (
+        "ez", "ex", "contact_time", "max_indentation", "error_ez", "error_ex"))
+    row.update(method=result.method, status=result.words()[()])
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerows([row.keys(), row.values()])
+    return text.getvalue()
+
+
+def _json(arguments, impact, result, record):
+    from restitute.command import provenance
+
+    def members(columns, names):
+        return {name: provenance.of_number(getattr(columns, name).item()) for name in names}
+
+    about = members(result, (
+        "ez", "ex", "error_ez", "error_ex", *_UNITS, "work", "merging_bound", "speed_ratio",
+        "radius_ratio", "displacement_ratio", "dundurs_beta", "elements", "steps", "terms_merged"))
+    about.update(flags=_flags(result.flags), method=result.method, status=_remark(result))
+    return provenance.text({"meta": record, "result": about,
+                            "numbers": members(impact.numbers(), _NUMBERS),
+                            "energy": members(result.ledger, dir(result.ledger))})
+
+
+def _remark(result):
+    """What the library says of the status; empty if it is well."""
+    from restitute import _library
+
+    return _library.text(_library.core.restitute_status_text(result.status)) if result.status else ""

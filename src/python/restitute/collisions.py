@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Impacts of bodies in space, in any frame of reference."""
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from restitute import _library
+from restitute._library import ffi
+from restitute.impact import Pairs, report, split
+from restitute.scenes import broadcast, combine
+from restitute.solving import Solved, options, solver
+
+__all__ = ["Body", "collide"]
+_VECTORS = ("position", "velocity", "spin", "normal")
+
+
+class Body(NamedTuple):
+    """Spheres, or planes that nothing moves (radius infinite). SI units; arrays that broadcast."""
+
+    position: Any = (0.0, 0.0, 0.0)  #: m, of the centre; of any point of a plane; shape (..., 3)
+    velocity: Any = (0.0, 0.0, 0.0)  #: m/s
+    spin: Any = (0.0, 0.0, 0.0)  #: rad/s, right-handed
+    radius: Any = np.inf  #: m; inf: a plane
+    mass: Any = np.inf  #: kg; inf: a sphere held fast
+    inertia: Any = 0.0  #: kg m^2; 0: of a solid sphere
+    normal: Any = (0.0, 0.0, 0.0)  #: of a plane, out of it
+
+
+def collide(material: Any, first: Body, second: Body, *, partner: Any = "rigid", friction: Any = 0.0,
+            touch_gap: Any = 1e-6, wave_density: Any = 0.0, method: str = "euler", on_error: str = "raise",
+            **settings: Any) -> tuple[Body, Body, Pairs]:
+    """What two bodies, or many pairs of them, do when they touch: each pair by itself, in one thread.
+
+    Parameters
+    ----------
+    material, partner, friction, wave_density, method, **settings
+        As in `restitute.pair`; all broadcast but method and settings.
+    first, second : Body
+        Before the impact. One may be a plane.
+    touch_gap : float, in [0, 1]
+        How far apart, over the sum of the radii, bodies still touch.
+    on_error : "raise" or "nan"
+
+    Returns
+    -------
+    first, second : Body
+        With the velocities and spins after the impact, arrays of shape (..., 3).
+    pairs : Pairs
+        In SI units.
+
+    Raises
+    ------
+    DomainError
+        Also for bodies that do not touch or that separate.
+
+    Examples
+    --------
+    >>> from restitute import Material
+    >>> ball = Body(position=(0, 0, 0.01), velocity=[(0.1, 0, -0.2), (0, 0, -0.1)], radius=0.01, mass=4e-3)
+    >>> after, floor, pairs = collide(Material.standard_solid(1e6, 2e6, 50.0), ball, Body(normal=(0, 0, 1)),
+    ...                               friction=0.3, radius_limit=1)
+    >>> bool((after.velocity[:, 2] == 0.2*pairs.ez).all()), after.spin[0].round(2)
+    (False, array([ 0.  , ...
+    """
+    chosen, rest = split(settings)
+    if rest:
+        raise TypeError(f"'{next(iter(rest))}' is no keyword of collide")
+    solids, place, deformable = combine(material, partner, 1.0)
+    columns = {"material": np.array([s.address for s in solids], np.uint64)[place], "deformable": deformable,
+               "friction": friction, "touch_gap": touch_gap, "wave_density": wave_density}
+    bodies = [{name: np.asarray(value, float) for name, value in body._asdict().items()} for body in (first, second)]
+    sizes = {f"{word}.{name}": value[..., 0] if name in _VECTORS else value
+             for word, body in zip(("first", "second"), bodies) for name, value in body.items()}
+    shape = broadcast({**columns, **sizes})
+    count = int(np.prod(shape))
+    records = [_library.structs(kind, count) for kind in ("collision", "body", "body")]
+    for record, values in zip(records, (columns, *bodies)):
+        for name, value in values.items():
+            record.reshape(shape)[name] = value
+    asked, solved = {"method": method, **chosen}, Solved.empty(count)
+    error = ffi.new("restitute_error *")
+    kinds = ("restitute_collision[]", "restitute_body[]", "restitute_body[]", "restitute_result[]")
+    pointers = [_library.pointer(r, kind) for r, kind in zip((*records, solved.results), kinds)]
+    with solver(options(**asked)) as pointer:
+        for i in range(count):
+            solved.status[i] = _library.core.restitute_collide(pointer, *(p + i for p in pointers), error)
+            if error.message[0] != b"\0":
+                solved.messages[i] = _library.text(error.message)
+    pairs = report(None, shape, solved, asked, on_error)
+    for record in records[1:]:
+        for name in ("velocity", "spin"):
+            record[name][solved.status < 0] = np.nan
+    after = [body._replace(velocity=record["velocity"].reshape(*shape, 3), spin=record["spin"].reshape(*shape, 3))
+             for body, record in zip((first, second), records[1:])]
+    return after[0], after[1], pairs

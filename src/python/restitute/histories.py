@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The time history of one impact, its events, and its fields of pressure and traction."""
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from restitute import _library, errors
+from restitute._library import ffi
+from restitute.impact import Pairs, report, split
+from restitute.scenes import Columns, Impacts
+from restitute.solving import Solved, options, solve_singly, solver
+
+__all__ = ["Events", "Fields", "History", "history"]
+_MEMBERS = ("time", "indentation", "contact_radius", "stick_radius", "normal_force",
+            "tangential_force", "normal_velocity", "tangential_velocity")
+
+
+class Events(Columns):
+    """Events in order of time: time, position, indentation, normal_velocity, tangential_velocity,
+    kind, elements, and `word`, e.g. "stick-to-slip"; include/restitute/cvode.h says what they are.
+
+    Attributes
+    ----------
+    work : Columns
+        steps, restarts, rates, events, stiff: the work of CVODE.
+    """
+
+    def __init__(self, records: np.ndarray, work: np.ndarray):
+        super().__init__(records)
+        name = _library.cvode.restitute_cvode_event_text
+        self.word = np.array([_library.text(name(kind)) for kind in records["kind"]], str)
+        self.work = Columns(work[0])
+
+
+class Fields(NamedTuple):
+    """The contact at some times, in T, a_el, G_r d0/a_el, and that over mu for the traction."""
+
+    time: np.ndarray  #: shape (count,)
+    spacing: float  #: of the grid; the first contact point is in its middle
+    pressure: np.ndarray  #: shape (count, cells, cells), axes time, y, x; 0 outside of the contact
+    traction: np.ndarray  #: along x
+    stick: np.ndarray  #: 1 sticks, 0 slips or not in contact
+
+
+class History(NamedTuple):
+    """Evenly spaced samples, first touch and the end of contact included; all of one shape (n,).
+
+    In SI units, or in T, d0, a_el, m v_z0^2/d0 (tangential force: times mu) and v_z0 (tangential
+    velocity: U' of docs/theory.md, 2).
+    """
+
+    time: np.ndarray
+    indentation: np.ndarray
+    contact_radius: np.ndarray
+    stick_radius: np.ndarray  #: 0 in gross slip; the contact radius if all sticks
+    normal_force: np.ndarray
+    tangential_force: np.ndarray  #: on the contact point, braking positive
+    normal_velocity: np.ndarray  #: positive into the partner
+    tangential_velocity: np.ndarray  #: of the contact point
+    result: Pairs  #: the pair, with ledger
+    events: Events | None = None
+    fields: Fields | None = None
+
+
+def history(material: Any = None, *, samples: int = 500, method: str | None = None,
+            events: bool = False, fields: int = 0, **keywords: Any) -> History:
+    """Solve one impact and keep what happens in it.
+
+    Parameters
+    ----------
+    material, **keywords
+        As in `restitute.pair`, for one impact.
+    samples : int, in [2, 1e9]
+        At most so many; "euler" and "bem" give no more than they make steps.
+    method : str
+        Default "euler", or "cvode" with events.
+    events : bool
+        Keep events: needs a method of the component cvode.
+    fields : int, in [0, 1000]
+        Snapshots of pressure and traction: needs the method "bem".
+
+    Raises
+    ------
+    DomainError, SolverError
+        The text names the value and its range.
+
+    Examples
+    --------
+    >>> run = history(psi=0.5, delta1=1, gamma=1, samples=200, method="sync")
+    >>> run.time.shape, run.result.ez.round(2), run.indentation.max().round(2)
+    ((200,), 0.78, 0.79)
+    """
+    settings, impact = split(keywords)
+    impacts = Impacts(material, **impact)
+    if impacts.shape:
+        raise errors.DomainError(f"history: has the shape {impacts.shape}, must be one impact")
+    method = method or ("cvode" if events else "euler")
+    if events and not method.startswith("cvode"):
+        raise errors.DomainError(f"events: the method {method} logs none; must be cvode, cvode-bdf or cvode-adams")
+    if fields and method != "bem":
+        raise errors.DomainError(f"fields = {fields}: need the method bem, not {method}")
+    if not 2 <= samples <= 1e9:
+        raise errors.DomainError(f"samples = {samples}: must be in [2, 1e9]")
+    asked = {"method": method, **settings}
+    value = options(**asked)
+    block = np.full((len(_MEMBERS), samples), np.nan)
+    wanted = _library.struct("history", capacity=samples)
+    for name, row in zip(_MEMBERS, block):
+        setattr(wanted, name, _library.pointer(row))
+    solved = Solved.empty(1, energies=True)
+    with _Recorder(value, events, fields) as recorder, solver(value) as pointer:
+        solve_singly(impacts, pointer, solved, 0, 1, wanted)
+        result = report(impacts, (), solved, asked)
+        return History(*block[:, :wanted.count], result, recorder.events(), recorder.fields())
+
+
+class _Recorder:
+    """What keeps events or fields, in place of the method of `settings`; a with statement."""
+
+    def __init__(self, settings, events, fields):
+        self.name = "cvode" if events else "bem" if fields else None
+        if self.name is None:
+            return
+        self.call = {part: getattr(getattr(_library, self.name), f"restitute_{self.name}_recorder_{part}")
+                     for part in ("create", "method", "destroy", *(("events", "work") if events else ("count", "get")))}
+        pointer = ffi.new(f"restitute_{self.name}_recorder **")
+        _library.call(self.call["create"], settings.method if events else fields, pointer)
+        self.pointer = pointer[0]
+        settings.method = self.call["method"](self.pointer)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.name:
+            self.call["destroy"](self.pointer)
+
+    def events(self):
+        if self.name != "cvode":
+            return None
+        log, work = _library.struct("cvode_events", "cvode"), _library.structs("cvode_work", 1, "cvode")
+        _library.call(self.call["events"], self.pointer, log)
+        records = np.zeros(log.count, _library.array_type("cvode_event"))
+        log.capacity, log.event = log.count, _library.pointer(records, "restitute_cvode_event[]")
+        _library.call(self.call["events"], self.pointer, log)
+        _library.call(self.call["work"], self.pointer, _library.pointer(work, "restitute_cvode_work[]"))
+        return Events(records, work)
+
+    def fields(self):
+        if self.name != "bem":
+            return None
+        shot, shots = _library.struct("bem_snapshot", "bem"), []
+        for index in range(self.call["count"](self.pointer)):
+            _library.call(self.call["get"], self.pointer, index, shot)
+            grids = [np.frombuffer(ffi.buffer(grid, 8 * shot.cells**2)).reshape(shot.cells, -1).copy()
+                     for grid in (shot.pressure, shot.traction, shot.stick)]
+            shots.append((shot.time, shot.spacing, *grids))
+        if not shots:
+            raise errors.DomainError("fields: the impact has too few steps")
+        time, spacing, *grids = zip(*shots)
+        return Fields(np.array(time), spacing[0], *(np.array(grid) for grid in grids))
