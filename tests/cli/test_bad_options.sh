@@ -24,6 +24,25 @@ refused 'unknown option' pair --psi 1 --no-such-option
 refused 'missing argument' pair --psi
 refused 'unexpected argument' pair --psi 1 2
 refused 'use one kind' pair --psi 1 --radius 1
+refused '--delta1 is missing: --gamma needs delta1' pair --psi 1 --gamma 1
+
+# What a number is taken for is named; a fraction is one.
+expect 0 pair --psi 1 --chi 7/6 --format csv
+[ "$(value out chi)" = 1.16666666666667 ] || [ "$(value out chi)" = 1.1666666666666667 ] || fail "7/6 is $(value out chi)"
+refused 'a decimal comma; write 1.5' pair --psi 1,5
+refused 'with the unit "mm"' pair --radius 5mm
+refused 'with the unit "m/s"' pair $scene --speed 1m/s
+refused 'write 0.785398163397448' pair --psi pi/4
+refused 'a division by zero' pair --psi 1/0
+
+# What was meant.
+refused 'did you mean --speed?' pair $scene --speeed 1
+refused 'did you mean --friction?' pair --mu 0.3
+refused 'did you mean --radius, half of it?' pair --diameter 0.01
+refused 'did you mean sync?' pair --psi 1 --method sinc
+refused 'did you mean polyisobutylene?' pair --material polyisobutylen --radius 1 --friction 0 --speed 1
+refused 'did you mean pair?' pari
+refused 'did you mean csv?' pair --psi 1 --format cvs
 
 base="--material $materials/polyisobutylene.json"
 refused '--radius = 0: must be finite and > 0' pair $base --radius 0 --density 7800 --friction 0.3 --velocity 1
@@ -32,11 +51,13 @@ refused '--radius = inf: must be finite and > 0' pair $base --radius inf --densi
 refused '--mass1 = 0: must be finite and > 0' pair $base --radius 1 --mass1 0 --friction 0.3 --velocity 1
 refused '--density = -5: must be finite and > 0' pair $base --radius 1 --density -5 --friction 0.3 --velocity 1
 refused '--density and --mass1 are both given' pair $base --radius 1 --density 1 --mass1 1 --friction 0.3 --velocity 1
-refused '--density or --mass1 is missing' pair $base --radius 1 --friction 0.3 --velocity 1
+# Against a rigid partner the sphere is of the material: a file without density does not tell it.
+refused '--density or --mass is missing' pair --material $materials/polyisobutylene.csv --radius 1 --friction 0.3 \
+    --velocity 1
 refused '--inertia1 = 0: must be finite and > 0' pair $scene --velocity 1 --inertia1 0
 refused '--velocity = 0: must be finite and > 0' pair $scene --velocity 0
 refused '--velocity = -1: must be finite and > 0' pair $scene --velocity -1
-refused '--velocity is missing' pair $scene
+refused '--speed is missing' pair $scene
 refused '--angle = 90: must be in [0, 90)' pair $scene --velocity 1 --angle 90
 refused '--angle = -1: must be in [0, 90)' pair $scene --velocity 1 --angle -1
 refused '--friction = -0.1: must be >= 0' pair $base --radius 1 --density 1 --velocity 1 --friction -0.1
@@ -91,9 +112,11 @@ for bad in speed=1:2:2,speed=1:2:2 speed=1:2:2,angle=0:10:2,friction=0:1:2 frict
     refused '--grid' pair $scene --grid "$bad"
 done
 refused 'must end in .svg, .png or .pdf' pair $scene --grid $grid --figure a.gif
-(PATH=/nowhere; export PATH; "$RESTITUTE" pair $scene --grid $grid --figure a.svg --output a.csv >out 2>err)
-[ $? -eq 2 ] || fail "a missing gnuplot is not refused"
-has err gnuplot
+mkdir none
+echo 'raise ImportError' >none/matplotlib.py
+PYTHONPATH=$work/none "$RESTITUTE" pair $scene --grid $grid --figure a.svg --output a.csv >out 2>err
+[ $? -eq 2 ] || fail "a missing matplotlib is not refused"
+has err 'matplotlib'
 absent a.gif a.svg a.csv a.csv.partial a.csv.partial.json a.csv.meta.json
 
 # Inputs are never replaced by outputs, by whatever name.

@@ -9,7 +9,9 @@ Every component is loaded when it is first named: `core`, `cvode`, `table`, `tab
 `files`, `contact`, `fit`.
 """
 import os
+import queue
 import sys
+import threading
 import warnings
 
 from restitute import errors
@@ -129,6 +131,38 @@ def pointer(array, kind=None):
     """The memory of a contiguous array for C; `kind` as in "restitute_scene[]", by default its dtype."""
     kind = kind or {"f8": "double[]", "i4": "int[]", "i8": "int64_t[]"}[array.dtype.str[1:]]
     return ffi.from_buffer(kind, array)
+
+
+def members(value):
+    """The members of a struct as a dict: numbers, tuples of them, texts. Pointers are left out."""
+    found = {}
+    for name, field in ffi.typeof(value[0]).fields:
+        member, kind = getattr(value, name), field.type
+        if kind.kind == "array":
+            found[name] = text(member) if kind.item.cname == "char" else tuple(member)
+        elif kind.kind == "primitive" and name != "struct_size":
+            found[name] = member
+    return found
+
+
+def interruptible(function, *arguments, keep=None):
+    """`call` in a thread of its own, so that Ctrl-C ends the wait at once.
+
+    The call itself goes on to its end. Until then `keep` lives, what its pointers lead to.
+    """
+    outcome = queue.SimpleQueue()
+
+    def run(keep):
+        try:
+            outcome.put(call(function, *arguments))
+        except BaseException as problem:  # handed over to the caller's thread
+            outcome.put(problem)
+
+    threading.Thread(target=run, args=(keep,), daemon=True).start()
+    found = outcome.get()
+    if isinstance(found, BaseException):
+        raise found
+    return found
 
 
 def warn(message, category):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What can go wrong, as exceptions with the library's words; what a result strains, as warnings."""
+from __future__ import annotations
 
 
 class Error(Exception):
@@ -14,7 +15,7 @@ class Error(Exception):
     """
 
     status = 0
-    index = None
+    index: int | tuple | None = None
 
 
 class DomainError(Error, ValueError):

@@ -103,8 +103,8 @@ def _version():
     text = f"restitute {restitute.version()}\nLicence: BSD-3-Clause."
     for component, (library, number, kind) in _LICENCES.items():
         if component in LIBRARIES:
-            text += (f"\nThis build links {library}, which is under the GNU General Public License, "
-                     f"version {number} or later,\nfor the {kind} {component}: it can be passed on "
+            text += (f"\nThis build links {library}, which is under the GNU General Public "
+                     f"License, version {number} or\nlater, for the {kind} {component}: it can be passed on "
                      "under that licence only.")
     return text + "\n"
 

@@ -160,7 +160,7 @@ def did_you_mean(word, known):
     from difflib import get_close_matches
 
     folded = {name.casefold(): name for name in known}
-    close = get_close_matches(word.casefold(), folded, 1, 0.7)
+    close = get_close_matches(word.casefold(), folded, 1)
     return f"; did you mean {folded[close[0]]}?" if close else ""
 
 

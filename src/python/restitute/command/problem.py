@@ -6,7 +6,7 @@ A field has one name everywhere: the option `--speed`, the keyword `speed`, and 
 column and JSON key `speed_m_s`. Older names are accepted.
 """
 import re
-from functools import lru_cache
+from functools import cache
 from itertools import combinations
 
 from restitute.command import options
@@ -231,30 +231,16 @@ def place_of_options(arguments):
 
 
 def in_words_of(place, text):
-    """A message of the package with the user's names of the fields that it begins with."""
-    names, colon, rest = text.partition(":")
-    return re.sub(r"\b[a-z_]+[12]?\b", lambda word: place(word[0]) if word[0] in (*FIELDS, *WORDS)
-                  else word[0], names) + colon + rest
+    """A message of the package with the user's names of the fields in its first part."""
+    fields, colon, rest = text.partition(":")
+    return re.sub(rf"(?<!\ba )\b({'|'.join(FIELDS)})\b|^(material|partner)\b",
+                  lambda word: place(word[0]), fields) + colon + rest
 
 
-def impacts(values, place):
-    """The `restitute.scenes.Impacts` of given values.
-
-    Parameters
-    ----------
-    values : dict
-        Numbers or arrays by the names of FIELDS, and those of WORDS; only what is given.
-    place : callable
-        place(name) is what the user calls a field.
-
-    Raises
-    ------
-    Refusal
-        What is missing, or does not go together.
-    """
+def impacts(keywords, place):
+    """The `restitute.scenes.Impacts` of keywords; refusals have the user's names of the fields."""
     from restitute.scenes import Impacts
 
-    keywords = _keywords(dict(values), place)
     try:
         made = Impacts(**keywords)
     except (TypeError, Error) as why:
@@ -268,7 +254,22 @@ _MODULI = ("modulus1", "youngs_modulus", "shore_a")
 _EXCLUSIVE = (("density", "mass"), ("density2", "mass2"), *combinations(_MODULI, 2))
 
 
-def _keywords(given, place):
+def keywords(values, place):
+    """The keywords of `restitute.pair` for given values.
+
+    Parameters
+    ----------
+    values : dict
+        Numbers or arrays by the names of FIELDS, and those of WORDS; only what is given.
+    place : callable
+        place(name) is what the user calls a field.
+
+    Raises
+    ------
+    Refusal
+        What is missing, or does not go together.
+    """
+    given = dict(values)
     for one, other in _EXCLUSIVE:
         if one in given and other in given:
             raise Refusal(f"{place(one)} and {place(other)} are both given: one determines the "
@@ -276,6 +277,8 @@ def _keywords(given, place):
     if not given:
         raise Refusal("no impact is described: give psi, delta1, gamma or a material, radius, "
                       "speed; see restitute pair --help")
+    if given.keys() >= {"delta1", "gamma", "delta2"}:
+        raise Refusal("delta1, gamma and delta2 are given: two of them determine the third")
     if set(given) <= set(DIMENSIONLESS):
         if "gamma" in given and "delta1" not in given and "delta2" not in given:
             raise Refusal(f"{place('delta1')} is missing: {place('gamma')} needs delta1 "
@@ -347,7 +350,7 @@ def read_material(text, place):
                   f"{', '.join(names())}{did_you_mean(text, names())}")
 
 
-@lru_cache(maxsize=None)
+@cache
 def material_of(text):
     """The material of a file or of a name, read once."""
     import restitute

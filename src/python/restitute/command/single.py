@@ -66,12 +66,14 @@ def run(arguments):
         if name in arguments.given:
             raise Refusal(f"--{name}: needs {needs}")
     files.check(arguments.output, "--output")
-    impact, result = solve(arguments, [("--output", arguments.output)])
+    import restitute
+
+    result = solve(arguments, {"output": arguments.output}, restitute.pair, energies=True)
     write = {None: _text, "text": _text, "csv": _csv, "json": _json}[arguments.format]
     units = dict.fromkeys(("ez", "ex", "error_ez", "error_ex"), "1")
-    units.update(_UNITS if impact.kind == "scene" else _SCALES, work="nominal s")
+    units.update(_UNITS if result.impacts.kind == "scene" else _SCALES, work="nominal s")
     record = provenance.record(arguments, provenance.settings(arguments, {"input": None}), units)
-    content = write(arguments, impact, result, record)
+    content = write(arguments, result.impacts, result, record)
     if arguments.format == "json":
         files.write((arguments.output, content))
     else:
@@ -79,38 +81,38 @@ def run(arguments):
     return 0
 
 
-def solve(arguments, outputs, function=None, **more):
-    """The impact that the options describe, and what came out; remarks go to standard error.
+def solve(arguments, outputs, function, **more):
+    """What `restitute.pair` or `restitute.history` makes of the impact that the options describe.
+
+    Remarks go to standard error.
 
     Parameters
     ----------
-    outputs : list of (option, path)
-        None of them may be an input, or another one.
-    function : callable
-        Instead of `restitute.impact.solve`.
+    outputs : dict of str to path
+        By the names of their options. None of them may be an input, or another one.
     """
     import warnings
 
-    from restitute import impact
     from restitute.command import files, provenance
 
-    values = problem.values_of(arguments)
-    one = problem.impacts(values, problem.place_of_options(arguments))
+    values, place = problem.values_of(arguments), problem.place_of_options(arguments)
+    keywords = problem.keywords(values, place)
+    problem.impacts(keywords, place)
     places = files.Places()
     for name in ("material", "partner"):
         if values.get(name) not in (None, "rigid", "same"):
             places.read(f"--{name}", values[name])
             places.read("prony_csv", provenance.series_of(values[name]))
-    for option, path in outputs:
-        places.write(option, path, ".meta.json")
+    for option, path in outputs.items():
+        places.write(f"--{option}", path, ".meta.json")
     places.check()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the message says the same of one impact
-        result = (function or impact.solve)(one, **problem.solution(arguments),
-                                            **(more or {"energies": True}))
-    if result.message():
-        say(f"remark: {result.message()}")
-    return one, result
+        made = function(**keywords, **{**problem.solution(arguments), **more})
+    message = getattr(made, "result", made).message()
+    if message:
+        say(f"remark: {message}")
+    return made
 
 
 _UNITS = {"contact_time": "s", "max_indentation": "m", "max_contact_radius": "m",
@@ -126,12 +128,12 @@ def _text(arguments, impact, result, record):
                               if getattr(numbers, name) == getattr(numbers, name))
     chi, ez = numbers.chi, result.ez
     critical = 2 * chi * (1 + ez) - ez if 2 * chi > 1 else 1.0  # (31)
-    lines = [f"restitute {record['version']}: {shown(impact.describe())}", *_note(arguments, impact),
-             "", "Restitution",
+    lines = [f"restitute {record['version']}: {shown(impact.describe())}",
+             *_note(arguments, impact), "", "Restitution",
              f"  normal       ez = {result.ez:9.6f} +- {result.error_ez:.1e}",
              f"  tangential   ex = {result.ex:9.6f} +- {result.error_ex:.1e}"]
     if result.status:
-        lines.append(f"  remark: {_remark(result)}")
+        lines.append(f"  remark: {remark(result)}")
     lines += ["", "Impact", *_lengths(impact, result, numbers), *_limits(impact, result), "",
               "Dimensionless numbers", f"  {shown_numbers}",
               f"  slip lasts to the end of contact from psi = {critical:.6g} on", "",
@@ -147,11 +149,9 @@ def _text(arguments, impact, result, record):
 
 def _note(arguments, impact):
     """Which of the two bodies is of the material, where that was concluded."""
-    given = arguments.given
-    if impact.kind == "scene" and not {"density", "mass"} & given.keys() and "partner" not in given:
-        density = impact.solids[0].density
-        yield (f"  taken: the sphere is of the material, {density:g} kg/m^3, and the partner rigid; "
-               "if it is not, give --density")
+    if impact.kind == "scene" and not {"density", "mass", "partner"} & arguments.given.keys():
+        yield (f"  taken: the sphere is of the material, {impact.solids[0].density:g} kg/m^3, and "
+               "the partner rigid; if not, give --density")
 
 
 def _lengths(impact, result, numbers):
@@ -224,14 +224,15 @@ def _json(arguments, impact, result, record):
     about = members(result, (
         "ez", "ex", "error_ez", "error_ex", *_UNITS, "work", "merging_bound", "speed_ratio",
         "radius_ratio", "displacement_ratio", "dundurs_beta", "elements", "steps", "terms_merged"))
-    about.update(flags=_flags(result.flags), method=result.method, status=_remark(result))
+    about.update(flags=_flags(result.flags), method=result.method, status=remark(result))
     return provenance.text({"meta": record, "result": about,
                             "numbers": members(impact.numbers(), _NUMBERS),
                             "energy": members(result.ledger, dir(result.ledger))})
 
 
-def _remark(result):
+def remark(result):
     """What the library says of the status; empty if it is well."""
     from restitute import _library
 
-    return _library.text(_library.core.restitute_status_text(result.status)) if result.status else ""
+    text = _library.core.restitute_status_text
+    return _library.text(text(result.status)) if result.status else ""

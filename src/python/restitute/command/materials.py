@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`restitute materials`: what is known by name, and what a material is."""
+from restitute.command import options, problem
+from restitute.command.options import Refusal, emit, number_text, shown
+
+_EPILOG = """Examples:
+  restitute materials
+  restitute materials show polyisobutylene
+  restitute pair --material polyisobutylene --radius 0.005 --friction 0.3 --speed 0.1
+
+The moduli are shear moduli: at once, and after infinite time.
+"""
+
+
+def add(subparsers):
+    """The parser of `restitute materials`."""
+    parser = subparsers.add_parser("materials", epilog=_EPILOG,
+                                   usage="restitute materials [list | show NAME|FILE]")
+    parser.add_argument("what", nargs="?", default="list", metavar="list|show",
+                        help="list: all names (default); show: one material, with its Prony terms")
+    parser.add_argument("material", nargs="?", metavar="NAME|FILE", help="of show")
+    options.add(parser, "temperature", "CELSIUS", "of show: with the relaxation times of this "
+                "temperature, where their shift is known", options.bounded(-273.15, 1e4))
+
+
+def run(arguments):
+    """List the materials, or show one."""
+    import restitute
+
+    what, name = arguments.what, arguments.material
+    options.one_of("list", "show")(what, "restitute materials")
+    if (what == "show") != (name is not None):
+        raise Refusal("restitute materials show needs the name of a material" if name is None else
+                      f'unexpected argument "{name[:100]}"; see --help')
+    if what == "show":
+        word = problem.read_material(name, "material")
+        emit(_page(restitute.material(word, temperature=arguments.temperature)))
+        return 0
+    lines = [f"{'name':18} {'density':>8} {'G(0), Pa':>10} {'G(inf), Pa':>10}  {'nu':5}  what it is"]
+    for word in problem.names():
+        material = problem.material_of(word)
+        stiff, soft = _moduli(material.series)
+        lines.append(f"{word:18} {material.density:8g} {stiff:10.3g} {soft:10.3g}  "
+                     f"{material.poisson_ratio:<5.3g}  {shown(material.name)}")
+    emit("\n".join([*lines, ""]))
+    return 0
+
+
+def _moduli(series):
+    """Instantaneous and equilibrium modulus."""
+    stiff = series.equilibrium_modulus + series.modulus.sum()
+    return float("inf") if series.parallel_viscosity > 0 else stiff, series.equilibrium_modulus
+
+
+def _page(material):
+    series = material.series
+    stiff, soft = _moduli(series)
+    lines = [shown(material.name or material.model)]
+    for label, value in (("source", shown(material.source)), ("model", material.model),
+                         ("density", f"{material.density:g} kg/m^3"),
+                         ("Poisson's ratio", f"{material.poisson_ratio:g}"),
+                         ("shear modulus", f"{stiff:.6g} Pa at once, {soft:.6g} Pa in the end"),
+                         ("parallel dashpot", f"{series.parallel_viscosity:g} Pa s")):
+        lines.append(f"  {label:17} {value}")
+    terms = [f"{number_text(tau)},{number_text(modulus)}" for tau, modulus in
+             zip(series.relaxation_time.tolist(), series.modulus.tolist())]
+    return "\n".join([*lines, *(["", "tau_s,G_Pa"] if terms else []), *terms, ""])

@@ -1,0 +1,393 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Constants of a material from measured impacts, or from storage and loss moduli.
+
+The component fit of the library links GSL, which is under the GPL.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Callable
+
+import numpy as np
+
+from restitute import _library, errors
+from restitute._library import call, ffi
+from restitute.materials import Material
+from restitute.scenes import Impacts
+
+__all__ = ["DmaFit", "DropFit", "fit_dma", "fit_drop_test"]
+
+#: Models and their constants; those of prony go on with term1, term2, ...
+MODELS = {"elastic": ("modulus",), "kelvin_voigt": ("modulus1", "viscosity"),
+          "standard_solid": ("modulus1", "modulus2", "viscosity"),
+          "maxwell": ("modulus", "viscosity"), "prony": ("equilibrium",)}
+LOSSES = ("squares", "huber", "cauchy")
+MEASURED = ("ez", "ex", "contact_time")
+_MEMBERS = ("confidence", "reference_temperature", "starts", "seed", "threads")
+GRAVITY = 9.80665  # m/s^2
+
+
+class _Fit:
+    remarks: list[str]
+    flags: int
+    material: Material
+
+    def _fill(self, struct, model, name):
+        self.remarks, self.flags = _library.text(struct.remarks).splitlines(), struct.flags
+        self.model, self.rms = model, struct.rms
+        self.material = Material(struct.material, name=name, model=model)
+
+    @property
+    def is_good(self) -> bool:
+        """The data follow the model and determine its constants, and the search has ended."""
+        bad = ("UNDETERMINED", "MISFIT", "UNFINISHED")
+        return not any(self.flags & getattr(_library.fit, f"RESTITUTE_FIT_FLAG_{word}")
+                       for word in bad)
+
+
+class DropFit(_Fit):
+    """A fit of m measured impacts.
+
+    Attributes
+    ----------
+    material : Material
+        The fitted solid.
+    names : list of str
+        Its n constants, e.g. "modulus1_pa", then "friction" and "shift_..." where fitted.
+    value, low, high : ndarray, shape (n,)
+        And their intervals. 0 or inf: no such bound; both the value: known.
+    correlation : ndarray, shape (n, n)
+        Of the logarithms.
+    remarks : list of str
+        What the data leave open, and what the model misses.
+    flags : int
+        Bits of `restitute_fit_flag`; `is_good` sums them up.
+    values, rank, impacts : int
+        Measured values; combinations of constants that they determine; impacts solved.
+    rms, noise, condition : float
+        Of the weighted residuals; noise is nan if no degree of freedom is left.
+    measured : dict of ndarray, shape (m,)
+        "ez", "ex", "contact_time" (s), nan where there is none, and "normal_speed" (m/s).
+    """
+
+    def __init__(self, struct: Any, model: str, fitter: Any, measured: dict, name: str):
+        self._fill(struct, model, name)
+        n = struct.constants
+        self.names = [_library.text(struct.name[k]) for k in range(n)]
+        self.value, self.low, self.high = (
+            np.array(list(one)[:n]) for one in (struct.value, struct.low, struct.high))
+        self.correlation = np.array([list(struct.correlation[k])[:n] for k in range(n)])
+        self.values, self.rank, self.impacts = struct.values, struct.rank, struct.impacts
+        self.noise, self.condition = struct.noise, struct.condition
+        self.measured, self._fitter, self._fitted = measured, fitter, dict[str, np.ndarray]()
+
+    @property
+    def fitted(self) -> dict[str, np.ndarray]:
+        """What the solid gives for each impact, measured or not: arrays of shape (m,)."""
+        if not self._fitted:
+            arrays = [np.empty(len(self.measured["ez"])) for _ in MEASURED]
+            self._fitter.call(_library.fit.restitute_fitter_values, self._fitter.handle,
+                              *map(_library.pointer, arrays))
+            self._fitted = dict(zip(MEASURED, arrays))
+        return self._fitted
+
+    @property
+    def residuals(self) -> dict[str, np.ndarray]:
+        """Measured minus fitted, likewise."""
+        return {name: self.measured[name] - self.fitted[name] for name in MEASURED}
+
+    def __repr__(self):
+        lines = [f"{name} = {value:.6g} ({low:.6g} to {high:.6g})"
+                 for name, value, low, high in zip(self.names, self.value, self.low, self.high)]
+        return "\n".join([f"<restitute.DropFit {self.model}", *lines, *self.remarks]) + ">"
+
+
+class DmaFit(_Fit):
+    """A Prony series from moduli.
+
+    Attributes
+    ----------
+    material, remarks, flags, is_good
+        As of `DropFit`.
+    equilibrium_modulus : float
+        Pa.
+    relaxation_time, modulus : ndarray, shape (n,)
+        s and Pa.
+    temperature, shift : ndarray, shape (m,)
+        Distinct temperatures and their a_T, by which times are multiplied.
+    wlf : (float, float)
+        C1 and C2, given, or fitted to the shifts; nan: none.
+    rms, worst : float
+        Of the relative residuals.
+    """
+
+    def __init__(self, struct: Any, name: str):
+        self._fill(struct, "prony", name)
+        terms, count = struct.terms, struct.temperatures
+        self.equilibrium_modulus, self.worst = struct.equilibrium_modulus, struct.worst
+        self.relaxation_time = np.array(list(struct.relaxation_time)[:terms])
+        self.modulus = np.array(list(struct.modulus)[:terms])
+        self.temperature = np.array(list(struct.temperature)[:count])
+        self.shift = np.array(list(struct.shift)[:count])
+        self.wlf = (struct.wlf_c1, struct.wlf_c2)
+
+    def __repr__(self):
+        head = f"<restitute.DmaFit of {self.modulus.size} terms, rms {self.rms:.3g}"
+        return "\n".join([head, *self.remarks]) + ">"
+
+
+class _Fitter:
+    """A restitute_fitter. While it works, the library asks in this thread whether to go on, so
+    that Python runs handlers of signals there. What they raise ends the call and is raised here."""
+
+    def __init__(self, points, options, kept):
+        self._raised, self._kept = None, kept
+        self._ask = ffi.callback("int(void *)", lambda _: 0, error=1, onerror=self._note)
+        options.interrupted = self._ask
+        handle = ffi.new("restitute_fitter **")
+        self.call(_library.fit.restitute_fitter_create, len(points),
+                  _library.pointer(points, "restitute_fit_point[]"), options, handle)
+        self.handle = ffi.gc(handle[0], _library.fit.restitute_fitter_destroy)
+
+    def _note(self, kind, value, trace):
+        self._raised = value
+
+    def call(self, function, *arguments):
+        self._raised = None
+        try:
+            call(function, *arguments)
+        except KeyboardInterrupt:
+            raise self._raised or KeyboardInterrupt() from None
+
+    def run(self, progress):
+        done = ffi.new("double *")
+        while done[0] < 1:
+            self.call(_library.fit.restitute_fitter_run, self.handle, done)
+            if progress:
+                progress(done[0])
+
+
+def fit_drop_test(*, ez: Any = np.nan, ex: Any = np.nan, contact_time: Any = np.nan,
+                  speed: Any = None, drop_height: Any = None, rebound_height: Any = None,
+                  rebound_ratio: Any = None, temperature: Any = np.nan, weight: Any = None,
+                  sigma_ez: Any = None, sigma_ex: Any = None, sigma_contact_time: Any = None,
+                  friction: Any = None, partner: Any = "rigid", model: str = "standard_solid",
+                  terms: Any = (), known: dict[str, float] | None = None,
+                  poisson_ratio: float = 0.5, loss: str = "squares",
+                  wlf: tuple[float, float] | None = None, name: str = "",
+                  progress: Callable[[float], Any] | None = None, **more: Any) -> DropFit:
+    """Fit the constants of a solid to measured impacts: some tenths of a second for twenty.
+
+    Arrays broadcast; nan stands for what was not measured.
+
+    Parameters
+    ----------
+    ez, ex, contact_time : array_like
+        Measured; the time in s.
+    speed : array_like
+        m/s.
+    drop_height, rebound_height : array_like
+        m, instead of speed = sqrt(2 g h) and ez = sqrt(h_rebound/h_drop); no air.
+    rebound_ratio : array_like
+        Rebound over drop height (rebound resilience), in [0, 1]: ez is its root.
+    temperature : array_like
+        Relaxation times are multiplied by a_T, a fitted one a temperature, or by `wlf`: C1, C2.
+    weight : array_like
+        Of the impacts; only ratios matter.
+    sigma_ez, sigma_ex, sigma_contact_time : array_like
+        Instead: standard deviations. The noise is then known.
+    friction : array_like
+        By default it is fitted where ex was measured.
+    partner : "rigid", "same", Material, or array_like of them
+        "same": both bodies are of the solid that is looked for.
+    model : {"standard_solid", "kelvin_voigt", "maxwell", "elastic", "prony"}
+    terms : array_like
+        Relaxation times of the model prony, s; 1 to 20.
+    known : dict
+        Constants that are not fitted, e.g. {"modulus1": 1e6}; see `MODELS`.
+    loss : {"squares", "huber", "cauchy"}
+        The last two are less disturbed by outliers.
+    name : str
+        Of the material.
+    progress : callable
+        progress(part done).
+    **more
+        `confidence`, `reference_temperature`, `starts`, `seed`, `threads`: members of
+        `restitute_fit_options`. `radius`, `density` or `mass`, `angle`, ...: as in `pair`.
+
+    Returns
+    -------
+    DropFit
+        Its remarks say what the data leave open.
+
+    Raises
+    ------
+    DomainError
+        A value is out of its range, which the text names with its place; too few values.
+    MissingComponent
+        This installation has no component fit.
+    KeyboardInterrupt
+        By Ctrl-C, within 200 impacts.
+
+    Examples
+    --------
+    >>> import restitute
+    >>> fit = fit_drop_test(drop_height=[0.1, 0.2, 0.5, 1], rebound_height=[0.07, 0.14, 0.34, 0.66],
+    ...                     radius=0.02, mass=0.04, model="kelvin_voigt", known={"modulus1": 1e8})
+    >>> fit.names, fit.is_good
+    (['modulus1_pa', 'viscosity_pa_s'], True)
+    """
+    members: dict[str, Any] = {key: more.pop(key) for key in _MEMBERS if key in more}
+    speed, ez = _heights(drop_height, rebound_height, rebound_ratio, speed, ez)
+    columns = {"ez": ez, "ex": ex, "contact_time": contact_time, "temperature": temperature}
+    sigmas = {"ez": sigma_ez, "ex": sigma_ex, "contact_time": sigma_contact_time}
+    members["noise_known"] = any(sigma is not None for sigma in sigmas.values())
+    if weight is not None:
+        if members["noise_known"]:
+            raise TypeError("weight and sigma_... are given: give one kind")
+        _check("weight", weight, 5e-324, 1e100, "must be > 0")
+        deviation = np.sqrt(np.mean(weight) / np.asarray(weight, float))
+        sigmas = {"ez": deviation, "ex": deviation, "contact_time": deviation * contact_time}
+    columns.update({f"sigma_{what}": one for what, one in sigmas.items() if one is not None})
+    points, records, kept = _points(columns, speed, friction, partner, poisson_ratio, more)
+    options, arrays = _options(model, terms, known, loss, wlf, poisson_ratio, members)
+    fitter = _Fitter(points, options, (records, kept, arrays))
+    fitter.run(progress)
+    result = _library.struct("fit_result", "fit")
+    call(_library.fit.restitute_fitter_result, fitter.handle, result)
+    measured = {what: points[what] for what in MEASURED}
+    measured["normal_speed"] = records["normal_speed"]
+    return DropFit(result, model, fitter, measured, name)
+
+
+def _heights(drop, rebound, ratio, speed, ez):
+    """Speed and ez from heights of drop and rebound where these are given."""
+    if drop is None and speed is None:
+        raise TypeError("speed is missing: must be > 0 (or drop_height)")
+    if drop is not None:
+        _check("drop_height", drop, 5e-324, np.inf, "must be > 0")
+        if speed is not None and not np.all(np.isnan(speed) | np.isnan(drop)):
+            raise TypeError("drop_height and speed both give the speed")
+        fall = np.sqrt(2 * GRAVITY * np.asarray(drop, float))
+        speed = fall if speed is None else np.where(np.isnan(drop), speed, fall)
+    if rebound is not None:
+        if drop is None or np.any(np.isnan(drop) & ~np.isnan(rebound)):
+            raise TypeError("rebound_height without drop_height")
+        _check("rebound_height", rebound, 0, np.where(np.isnan(drop), np.inf, drop),
+               "must be in [0, drop_height]")
+        ez = _root("rebound_height", np.divide(rebound, drop), ez)
+    if ratio is not None:
+        _check("rebound_ratio", ratio, 0, 1, "must be in [0, 1]")
+        ez = _root("rebound_ratio", np.asarray(ratio, float), ez)
+    return speed, ez
+
+
+def _root(name, ratio, ez):
+    if np.any(~np.isnan(ratio) & ~np.isnan(ez)):
+        raise TypeError(f"{name} and ez both give ez")
+    return np.where(np.isnan(ratio), ez, np.sqrt(ratio))
+
+
+def _check(name, values, low, high, words):
+    """Refuse the first value that is outside; nan is not."""
+    values, low, high = np.broadcast_arrays(np.asarray(values, float), low, high)
+    bad = np.flatnonzero((values < low) | (values > high))
+    if bad.size:
+        where = f"points[{bad[0]}]." if values.ndim else ""
+        raise errors.DomainError(f"{where}{name} = {values.flat[bad[0]]:.15g}: {words}")
+
+
+def _points(columns, speed, friction, partner, poisson_ratio, scene):
+    """restitute_fit_point records and the scenes they point at, and what must live as long."""
+    if friction is None:
+        friction = np.where(np.isnan(columns["ex"]), 0.0, np.nan)
+    partners = np.asarray(partner, object)
+    own = np.frompyfunc(lambda one: one.address if isinstance(one, Material) else 0, 1, 1)
+    word = np.frompyfunc(lambda one: one if isinstance(one, str) else "rigid", 1, 1)
+    shape = np.broadcast_shapes(*(np.shape(one) for one in (speed, friction, partners)),
+                                *(np.shape(one) for one in columns.values()))
+    stand_in = Material.elastic(1.0, poisson_ratio)  # for the solid that is looked for
+    impacts = Impacts(stand_in, speed=np.broadcast_to(speed, shape), partner=word(partners),
+                      friction=np.where(np.isnan(friction), 0.0, friction), **scene)
+    if impacts.refused:
+        first = min(impacts.refused)
+        raise errors.DomainError(f"points[{first}].{impacts.refused[first]}")
+    shape, records = impacts.shape, impacts.bound()
+    records["friction"] = np.broadcast_to(friction, shape).ravel()
+    records["material"] = np.broadcast_to(own(partners), shape).ravel()
+    points = _library.structs("fit_point", len(records), "fit")
+    for column, value in columns.items():
+        points[column] = np.broadcast_to(value, shape).ravel()
+    places = np.arange(len(records), dtype=np.uint64) * np.uint64(records.itemsize)
+    points["scene"] = records.ctypes.data + places
+    return points, records, partners
+
+
+def _options(model, terms, known, loss, wlf, poisson_ratio, members):
+    """restitute_fit_options, and the arrays that must live as long."""
+    for name, value, words in (("model", model, MODELS), ("loss", loss, LOSSES)):
+        if value not in words:
+            raise errors.DomainError(f"{name} = {value!r}: must be one of {', '.join(words)}")
+    terms = np.atleast_1d(np.asarray(terms, float))
+    if (model == "prony") != (terms.size > 0):
+        raise TypeError("terms and the model prony belong together")
+    names = [*MODELS[model], *(f"term{k + 1}" for k in range(terms.size))]
+    values = np.full(len(names), np.nan)
+    for name, value in (known or {}).items():
+        if name not in names:
+            raise errors.DomainError(f"known: {name!r} is no constant of this model: must be one "
+                                     f"of {', '.join(names)}")
+        values[names.index(name)] = value
+    arrays = [_library.pointer(terms), _library.pointer(values)]
+    options = _library.struct(
+        "fit_options", "fit", model=1 + list(MODELS).index(model), loss=LOSSES.index(loss),
+        terms=terms.size, relaxation_time=arrays[0], known=arrays[1], poisson_ratio=poisson_ratio,
+        **members)
+    if wlf is not None:
+        options.wlf_c1, options.wlf_c2 = wlf
+    return options, arrays
+
+
+def fit_dma(frequency: Any, storage: Any, loss: Any, temperature: Any = None, *,
+            wlf: tuple[float, float] | None = None, name: str = "", **options: Any) -> DmaFit:
+    """A Prony series, of as few terms as the data carry, from storage and loss moduli.
+
+    Parameters
+    ----------
+    frequency, storage, loss : array_like, shape (n,)
+        Hz (omega = 2 pi f) and Pa.
+    temperature : array_like, shape (n,), optional
+        Curves of several are shifted into one.
+    wlf : (float, float), optional
+        C1 and C2; by default a free shift a temperature.
+    name : str
+        Of the material.
+    **options
+        Members of `restitute_dma_options` (fit.h): `poisson_ratio`, `tension` (the moduli are E'
+        and E''), `noise` (relative, of the moduli; default 0.01), `reference_temperature`.
+
+    Raises
+    ------
+    DomainError
+        The text names the row, the value and its range.
+    MissingComponent, KeyboardInterrupt
+        As `fit_drop_test`.
+
+    Examples
+    --------
+    >>> import numpy as np, restitute
+    >>> rubber, f = restitute.Material.maxwell(1e6, 1e4), np.geomspace(0.1, 1000, 25)
+    >>> omega = 2 * np.pi * f
+    >>> fit_dma(f, rubber.storage_modulus(omega), rubber.loss_modulus(omega)).modulus.round()
+    array([1000000.])
+    """
+    columns = [frequency, storage, loss] + ([] if temperature is None else [temperature])
+    arrays = [np.array(one, float).ravel() for one in np.broadcast_arrays(*columns)]
+    settings = _library.struct("dma_options", "fit", **options)
+    if wlf is not None:
+        settings.wlf_c1, settings.wlf_c2 = wlf
+    result = _library.struct("dma_result", "fit")
+    pointers = [*map(_library.pointer, arrays), *([ffi.NULL] if temperature is None else [])]
+    _library.interruptible(_library.fit.restitute_dma_fit, arrays[0].size, *pointers, settings,
+                           result)
+    return DmaFit(result, name)

@@ -1,0 +1,401 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tables of restitution pairs: some ten nanoseconds a pair, with a verified error."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from types import SimpleNamespace
+from typing import Any, Callable
+
+import numpy as np
+
+from restitute import _library, errors
+from restitute._library import call, ffi
+from restitute.executor import map_chunks
+from restitute.impact import LIMITS
+from restitute.materials import Material
+from restitute.scenes import Impacts
+
+__all__ = ["Table", "TableContact", "TablePairs", "build_tables"]
+
+_FROM = (("fast_speed", "not slow against shear waves from {:.4g} m/s on"),
+         ("large_contact_speed", "contact not small against the sphere from {:.4g} m/s on"),
+         ("long_slide_speed", "long slide at 45 degrees from {:.4g} m/s on"))
+
+
+class TableContact:
+    """Another contact that a table serves, made by `Table.contact`.
+
+    Attributes
+    ----------
+    speed_factor, psi_factor : float
+        Speed in the table over speed of this contact; psi v_n/|v_t|.
+    radius, mass : float
+        Effective ones, m and kg.
+    """
+
+    def __init__(self, struct: Any):
+        self.struct = struct
+        self.speed_factor, self.psi_factor = struct.speed_factor, struct.psi_factor
+        self.radius, self.mass = struct.radius, struct.mass
+
+
+class TablePairs:
+    """Pairs from a table. `ez, ex = table.pair(...)` takes them apart.
+
+    Attributes
+    ----------
+    ez, ex : ndarray
+        Of the broadcast shape of the speeds.
+    """
+
+    def __init__(self, ez: Any, ex: Any, flags: Callable[[], Any]):
+        self.ez, self.ex, self._flags = ez, ex, flags
+
+    @property
+    def flags(self) -> Any:
+        """Which limits of the model are passed (`Table.flags`); None for a contact that is not
+        the table's own."""
+        return self._flags()
+
+    def __iter__(self):
+        return iter((self.ez, self.ex))
+
+    def __repr__(self):
+        return f"<restitute.TablePairs ez={self.ez}, ex={self.ex}>"
+
+
+class Table:
+    """Restitution pairs of one contact over normal and sliding speed.
+
+    Made by `Table.build` or `Table.load`; immutable. Threads may share it, and it can be pickled.
+
+    Attributes
+    ----------
+    info : types.SimpleNamespace
+        The members of the library's `restitute_table_info`: `speed` (m/s, the range), `error_ez`
+        and `error_ex` (verified), `tolerance`, `chi`, `friction`, `radius`, `mass`,
+        `fast_speed`, `large_contact_speed`, `long_slide_speed`, `rebound_speed`, ...
+
+    Examples
+    --------
+    >>> import restitute
+    >>> rubber = restitute.Material.standard_solid(1e6, 3e6, 300.0)
+    >>> table = Table.build(rubber, radius=0.001, density=1200, friction=0.3,
+    ...                     speeds=(0.01, 0.1), tolerance=1e-3)
+    >>> ez, ex = table.pair([0.02, 0.05], 0.01)
+    >>> small = table.contact(radius=0.0008, density=1200, friction=0.5)
+    >>> print(table.pair(0.02, 0.01, small).ez.round(2))
+    0.59
+    """
+
+    def __init__(self, handle: Any):
+        self._handle = ffi.gc(handle, _library.table.restitute_table_destroy)
+        struct = _library.struct("table_info", "table")
+        call(_library.table.restitute_table_describe, self._handle, struct)
+        self.info = SimpleNamespace(**_library.members(struct))
+        self._data: dict[str, Any] = {}
+
+    @classmethod
+    def build(cls, material: Any, *, speeds: Any = (1e-4, 100.0), tolerance: float = 1e-5,
+              threads: int = 1, max_impacts: int | None = None, time_limit: float | None = None,
+              speed_limit: float | None = None, radius_limit: float | None = None,
+              displacement_limit: float | None = None, **contact: Any) -> Table:
+        """Build a table of one contact: hundredths of a second to seconds.
+
+        Parameters
+        ----------
+        material : Material, name or path
+        speeds : float or (float, float)
+            Lowest and highest normal speed, m/s.
+        tolerance : float
+            Largest absolute error of ez and ex, in [1e-7, 0.1].
+        threads : int
+            The table has the same bits for any; 0: as many as there are.
+        max_impacts, time_limit : int and float (s), optional
+            Refinement ends at 0.8 of them; default 12000 and 20. inf: no limit of time.
+        speed_limit, radius_limit, displacement_limit : float, optional
+            Limits of the model.
+        **contact
+            As in `pair`: `radius`, `density` or `mass`, `friction`, `radius2`, `partner`, ...
+
+        Raises
+        ------
+        DomainError, SolverError
+            A value is out of its range; `max_impacts` is too small for any table.
+        KeyboardInterrupt
+            By Ctrl-C, at once.
+
+        Warns
+        -----
+        ToleranceWarning
+            The verified error is above the tolerance.
+        """
+        options = _library.struct("table_options", "table", threads=threads, tolerance=tolerance)
+        options.speed = [float(speed) for speed in np.broadcast_to(speeds, 2)]
+        for name, value in (("max_impacts", max_impacts), ("time_limit", time_limit),
+                            ("speed_limit", speed_limit), ("radius_limit", radius_limit),
+                            ("displacement_limit", displacement_limit)):
+            if value is not None:
+                setattr(options, name, value)
+        handle = ffi.new("restitute_table **")
+        scene, kept = _scene(material, contact)
+        function = _library.table.restitute_table_build
+        status, message = _library.interruptible(function, scene, options, handle, keep=kept)
+        if status:
+            _library.warn(message, errors.ToleranceWarning)
+        return cls(handle[0])
+
+    @classmethod
+    def load(cls, path: str | os.PathLike) -> Table:
+        """A table from its HDF5 file; table_files.h says how it is laid out.
+
+        Raises
+        ------
+        FileError, FormatError
+            It cannot be read; it is no table, or damaged.
+        """
+        handle = ffi.new("restitute_table **")
+        call(_library.table_files.restitute_table_read, _library.string(path), handle)
+        return cls(handle[0])
+
+    def save(self, path: str | os.PathLike) -> None:
+        """Write the table into an HDF5 file, whole or not at all (`FileError`)."""
+        call(_library.table_files.restitute_table_write, self._handle, _library.string(path))
+
+    @classmethod
+    def from_data(cls, data: dict[str, Any]) -> Table:
+        """A table of the numbers that `data` gives."""
+        struct, kept = _library.struct("table_data", "table"), []
+        for name, value in data.items():
+            if isinstance(value, np.ndarray):
+                kept.append(_library.pointer(np.ascontiguousarray(value, float).ravel()))
+                value = kept[-1]
+            setattr(struct, name, value.encode() if isinstance(value, str) else value)
+        handle = ffi.new("restitute_table **")
+        call(_library.table.restitute_table_create, struct, handle)
+        return cls(handle[0])
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """All numbers of the table, the members of the library's `restitute_table_data`: `speed`
+        (n,), `ez` (n, 2), `ex` (n, places of psi, 4), `strain` (n, 3), ..."""
+        if not self._data:
+            struct = _library.struct("table_data", "table")
+            call(_library.table.restitute_table_data_get, self._handle, struct)
+            n, places = struct.speeds, struct.stick_cells + struct.slip_cells + 2
+            shapes: dict[str, tuple[int, ...]] = {
+                "relaxation_time": (struct.terms,), "modulus": (struct.terms,), "speed": (n,),
+                "ez": (n, 2), "strain": (n, 3), "ex": (n, places, 4)}
+            self._data = _library.members(struct)
+            for name, shape in shapes.items():
+                values = np.empty(shape)
+                ffi.memmove(ffi.from_buffer(values), getattr(struct, name), values.nbytes)
+                self._data[name] = values
+        return self._data
+
+    def __reduce__(self):
+        return Table.from_data, (self.data,)
+
+    @property
+    def speed(self) -> tuple[float, float]:
+        """Lowest and highest normal speed, m/s."""
+        return self.info.speed
+
+    @property
+    def material(self) -> Material:
+        """The solid that the table is for."""
+        names = ("relaxation_time", "modulus", "equilibrium_modulus", "parallel_viscosity",
+                 "poisson_ratio")
+        return Material.prony(*(self.data[name] for name in names))
+
+    @property
+    def limits(self) -> list[str]:
+        """Which limits of the model are passed, and from which speed on, in words."""
+        rebound = self.info.rebound_speed
+        words = [f"no rebound up to {rebound:.4g} m/s"] if rebound > 0 else []
+        return words + [text.format(getattr(self.info, name)) for name, text in _FROM
+                        if np.isfinite(getattr(self.info, name))]
+
+    def contact(self, material: Any = None, *, touch_gap: float = 1e-6,
+                **contact: Any) -> TableContact:
+        """Another contact of this table: solid spheres of other sizes, another friction.
+
+        Parameters
+        ----------
+        material : Material, optional
+            That of the table (default), or with all times and all moduli times a factor each.
+        touch_gap : float
+            For `collide`: how far apart, over the radii, bodies still touch; in [0, 1].
+        **contact
+            As in `pair`.
+
+        Raises
+        ------
+        DomainError
+            The table does not serve it.
+        """
+        struct = _library.struct("table_contact", "table", touch_gap=touch_gap)
+        scene, _kept = _scene(material or self.material, contact)
+        call(_library.table.restitute_table_contact_set, self._handle, scene, struct)
+        return TableContact(struct)
+
+    def pair(self, normal_speed: Any, sliding_speed: Any = 0.0,
+             contact: TableContact | None = None, *, check: bool = True) -> TablePairs:
+        """The pairs of impacts.
+
+        Parameters
+        ----------
+        normal_speed : array_like
+            m/s, approaching, in [0, 1e100]. Beyond the range its end is taken.
+        sliding_speed : array_like
+            m/s, of the contact point, spin included. Both broadcast.
+        contact : TableContact, optional
+            By default the table's own.
+        check : bool
+            Count what is beyond the range and the limits, which takes longer than the look-up.
+
+        Raises
+        ------
+        DomainError
+            The first speed that is out of its range.
+
+        Warns
+        -----
+        ModelLimitWarning
+            How many speeds are beyond the range of the table, or beyond a limit of the model.
+        """
+        normal, sliding, shape = _speeds(normal_speed, sliding_speed)
+        ez, ex = np.empty(normal.size), np.empty(normal.size)
+        call(_library.table.restitute_table_pair_many, self._handle, _struct(contact), ez.size,
+             *map(_library.pointer, (normal, sliding, ez, ex)))
+        if check:
+            self._warn(normal, sliding, contact)
+        return TablePairs(ez.reshape(shape)[()], ex.reshape(shape)[()],
+                          lambda: None if contact else self.flags(normal_speed, sliding_speed))
+
+    def beyond(self, normal_speed: Any, contact: TableContact | None = None) -> Any:
+        """Whether normal speeds (m/s) are outside the range, whose end is then taken."""
+        low, high = self.speed
+        speed = np.asarray(normal_speed, float) * (contact.speed_factor if contact else 1)
+        if self.info.speeds <= 2 and low < high:  # e_z is the same at all speeds
+            return np.zeros(speed.shape, bool)[()]
+        return (speed < low) | (speed > high)
+
+    def flags(self, normal_speed: Any, sliding_speed: Any = 0.0) -> Any:
+        """Which limits of the model impacts of the table's own contact pass.
+
+        Returns
+        -------
+        ndarray of int
+            Bits as in `restitute.impact.LIMITS`. Outside the range those of its ends.
+        """
+        data, (normal, sliding, shape) = self.data, _speeds(normal_speed, sliding_speed)
+        nodes, strain = data["speed"], data["strain"]
+        place = np.clip(normal, data["low"], data["high"])
+        i = np.clip(np.searchsorted(nodes, place, "right") - 1, 0, len(nodes) - 2)
+        with np.errstate(all="ignore"):  # ratios are powers of the speed between nodes
+            u = np.log(place / nodes[i]) / np.log(nodes[i + 1] / nodes[i])
+            low, high = strain[i].T, strain[i + 1].T
+            powers = (low > 0) & np.isfinite(high)
+            at = np.where(powers, low * (high / low) ** u, np.maximum(low, high))
+            passed = (at[0] > data["speed_limit"], at[1] > data["radius_limit"],
+                      at[2] * np.abs(sliding) > data["displacement_limit"] * normal)
+        return sum(bit * hit for (bit, *_), hit in zip(LIMITS, passed)).reshape(shape)[()]
+
+    def _warn(self, normal, sliding, contact):
+        outside = int(np.count_nonzero(self.beyond(normal, contact)))
+        if outside:
+            low, high = self.speed
+            _library.warn(f"{outside} of {normal.size} normal speeds are outside the table's "
+                          f"range, {low:.6g} to {high:.6g} m/s, whose ends are taken",
+                          errors.ModelLimitWarning)
+        if contact:
+            return  # the table knows the limits of its own contact alone
+        flags = self.flags(normal, sliding)
+        for bit, _, option, _, words in LIMITS:
+            count = int(np.count_nonzero(flags & bit))
+            if count:
+                _library.warn(f"{count} of {flags.size} impacts: "
+                              f"{words.format(self.data[option])}", errors.ModelLimitWarning)
+
+    def __repr__(self):
+        low, high = self.speed
+        return (f"<restitute.Table {low:.4g} to {high:.4g} m/s, errors {self.info.error_ez:.1g}, "
+                f"{self.info.error_ex:.1g}>")
+
+
+def _struct(contact):
+    return contact.struct if contact else ffi.NULL
+
+
+def _speeds(normal, sliding):
+    """Both as contiguous arrays of one dimension, and their broadcast shape."""
+    both = np.broadcast_arrays(np.asarray(normal, float), np.asarray(sliding, float))
+    return (*(np.array(one, float).ravel() for one in both), both[0].shape)
+
+
+def _scene(material, contact):
+    """The one contact of these keywords: a restitute_scene, and what must outlive it."""
+    if "speed" not in contact and "normal_speed" not in contact:
+        contact = {**contact, "speed": 1.0}  # the library does not use it
+    impacts = Impacts(material, **contact)
+    if impacts.kind != "scene" or impacts.shape:
+        raise errors.DomainError("a table is of one contact in SI units, not of arrays or chi")
+    if impacts.refused:
+        raise errors.DomainError(impacts.refused[0])
+    return _library.pointer(impacts.bound(), "restitute_scene[]"), impacts
+
+
+def build_tables(materials: Sequence[Any], *, executor: Any = None, threads: int = 1,
+                 retries: int = 3, progress: Callable[[int, int], Any] | None = None,
+                 **keywords: Any) -> list[list[Table]]:
+    """The tables of all pairs of some materials: both bodies deform.
+
+    Parameters
+    ----------
+    materials : sequence of n Materials, names or paths
+    executor : concurrent.futures.Executor or distributed.Client, optional
+        Build there, a table a task; by default in `threads` threads. The bits are the same.
+    progress : callable
+        progress(tables done, of all).
+    **keywords
+        As of `Table.build`, without `partner`.
+
+    Returns
+    -------
+    list of n lists of n Tables
+        tables[i][j] is tables[j][i], of the materials i and j.
+
+    Raises
+    ------
+    DomainError, SolverError
+        The first failure. What runs then, or at Ctrl-C, ends within its `time_limit`.
+
+    Examples
+    --------
+    >>> import restitute
+    >>> rubber, glass = restitute.Material.kelvin_voigt(1e6, 50.0), restitute.Material.elastic(1e7)
+    >>> tables = build_tables([rubber, glass], radius=0.01, density=1000, friction=0.3,
+    ...                       speeds=(0.01, 1), tolerance=1e-2)
+    >>> tables[0][1] is tables[1][0], len(tables)
+    (True, 2)
+    """
+    pairs = [(i, j) for j in range(len(materials)) for i in range(j + 1)]
+    tasks = [(materials[i], "same" if i == j else materials[j], keywords) for i, j in pairs]
+    pool = None if executor else ThreadPoolExecutor(threads)
+    try:
+        built = dict(zip(pairs, map_chunks(_build_task, tasks, executor or pool, retries=retries,
+                                           progress=progress)))
+    finally:
+        if pool:
+            pool.shutdown(wait=False)
+    count = range(len(materials))
+    return [[built[min(i, j), max(i, j)] for j in count] for i in count]
+
+
+def _build_task(task):
+    material, partner, keywords = task
+    return Table.build(material, partner=partner, **keywords)
