@@ -2,19 +2,19 @@
 """What the figures show."""
 from __future__ import annotations
 
-from types import SimpleNamespace
+import functools
+from typing import Any
 
 import numpy as np
 
 from restitute import plot, version
-from restitute.paper.figures import LINE, formula
-from restitute.plot.pairs import mark_limits
+from restitute.plot.pairs import QUANTITIES, TITLES, mark_limits
 from restitute.plot.sheet import RED, legend
 
-_QUANTITIES = {"ez": "$e_z$", "ex": "$e_x$"}
+_LIMIT = {"color": RED, "linestyle": "-.", "linewidth": 2.2}
 
 
-def draw(figure, ax=None):
+def draw(figure: Any, ax: Any = None) -> Any:
     """Draw a figure whose impacts are solved; see `Figure.draw`."""
     kind = figure.spec.kind
     panels = 2 if kind in ("maxwell", "temperature", "friction") else 1
@@ -22,9 +22,9 @@ def draw(figure, ax=None):
         origin = f"restitute {version()}, method {figure.method}, tolerance {figure.tolerance:g}"
         ax = plot.sheet(panels, figure.spec.title, figure.description(), origin)
     axes = np.ravel(ax)
-    {"ez": _over_delta1, "no_slip": _over_delta1, "map": _map, "psi_c": _psi_c, "psi_c_error": _psi_c,
-     "maxwell": _maxwell, "temperature": _temperature, "tangent": _tangent,
-     "friction": _friction}[kind](figure, *axes)
+    of = {"map": _map, "psi_c": _psi_c, "psi_c_error": _psi_c, "maxwell": _two,
+          "temperature": _two, "tangent": _tangent, "friction": _friction}
+    of.get(kind, _over_delta1)(figure, *axes)
     legend(axes[-1])
     return ax
 
@@ -33,13 +33,9 @@ def _names(figure):
     kind = figure.spec.kind
     pattern = {"psi_c_error": "{:g} elements", "temperature": "{:g} °C", "maxwell": "ψ = {:g}",
                "friction": "δ₁ = {:g}"}.get(kind, "γ = {:g}")
-    special = {"friction": {0: "elastic"}}.get(kind, {0: "Kelvin-Voigt"} if pattern[0] == "γ" else {})
-    return [special.get(value, pattern.format(value) if value == value else "Maxwell")
-            for value in figure.spec.curves]
-
-
-def _style(figure, curve, **more):
-    return {**plot.look(curve, figure.curves), **more}
+    special = {"γ = {:g}": "Kelvin-Voigt", "δ₁ = {:g}": "elastic"}.get(pattern)
+    return [special if special and value == 0 else pattern.format(value) if value == value
+            else "Maxwell" for value in figure.spec.curves]
 
 
 def _points(figure, ax, quantity, x=None, names=None, **style):
@@ -47,10 +43,11 @@ def _points(figure, ax, quantity, x=None, names=None, **style):
     x = figure.x if x is None else x
     y = np.array(getattr(figure.pairs, quantity), float)
     if quantity == "ex":
-        y[np.isinf(figure.pairs.contact_time)] = np.nan  # it stays in contact, and there is no after
+        y[np.isinf(figure.pairs.contact_time)] = np.nan  # still in contact: there is no after
     for curve in range(figure.curves):
         of = figure.curve == curve
-        ax.plot(x[of], y[of], label=names[curve] if names else None, **_style(figure, curve, **style))
+        ax.plot(x[of], y[of], label=names and names[curve],
+                **plot.look(curve, figure.curves, **style))
     mark_limits(ax, x, y, figure.pairs.flags)
 
 
@@ -58,88 +55,82 @@ def _curves(figure, ax, quantity):
     """Lines of the dimensionless numbers, and the impacts drawn as points on them."""
     for curve, name in enumerate(_names(figure)):
         ax.plot(figure.lines.x, getattr(figure.lines, quantity)[curve], label=name,
-                **_style(figure, curve, marker=""))
+                **plot.look(curve, figure.curves, marker=""))
     _points(figure, ax, quantity, linestyle="")
 
 
-def _axis(figure, ax, label, ylabel, title=""):
-    ax.set(xscale="log", xlabel=label, ylabel=ylabel, title=title, xlim=(figure.spec.low, figure.spec.high))
+def _axes(figure, ax, xlabel, ylabel, **more):
+    ax.set(xscale="log", xlabel=xlabel, ylabel=ylabel, xlim=(figure.spec.low, figure.spec.high),
+           **more)
 
 
 def _over_delta1(figure, ax):
     quantity = "ez" if figure.spec.kind == "ez" else "ex"
     _curves(figure, ax, quantity)
-    _axis(figure, ax, "δ₁", _QUANTITIES[quantity])
+    _axes(figure, ax, "δ₁", QUANTITIES[quantity])
     if quantity == "ez":
         ax.set_ylim(0, 1.02)
 
 
 def _map(figure, ax):
-    shape = figure.curves, -1
-    psi = figure.aims["psi"].reshape(shape)[:, 0]
-    whole = SimpleNamespace(ex=np.where(figure.pairs.status < 0, np.nan, figure.pairs.ex).reshape(shape).T)
-    plot.map(figure.aims["delta1"][:figure.spec.points], psi, whole, "ex", xlabel="δ₁", ylabel="ψ",
-             log=(True, False), ax=ax)
-    flags = figure.pairs.flags
-    ax.plot(figure.lines.x, formula(figure.lines.ez[0]), color=RED, linestyle="-.", linewidth=2.2,
-            label=r"$\psi_c$")
+    delta1, psi, pairs = figure.aims["delta1"], figure.aims["psi"], figure.pairs
+    shown = type("Nodes", (), {"ex": pairs.ex})
+    plot.map(delta1, psi, shown, "ex", xlabel="δ₁", ylabel="ψ", log=(True, False), ax=ax)
+    ax.plot(figure.lines.x, figure.formula(figure.lines.ez[0]), label=r"$\psi_c$", **_LIMIT)
     ax.axhline(1, color="#440154", label="ψ = 1")
-    mark_limits(ax, figure.aims["delta1"], figure.aims["psi"], flags)
+    mark_limits(ax, delta1, psi, pairs.flags)
 
 
 def _psi_c(figure, ax):
-    error = figure.spec.kind == "psi_c_error"
-    delta1 = figure.aims["delta1"].reshape(figure.curves, -1)
+    error, curves = figure.spec.kind == "psi_c_error", figure.curves
+    delta1 = figure.aims["delta1"].reshape(curves, -1)
     for curve, name in enumerate(_names(figure)):
         if error:
-            ez = figure.expected.ez.reshape(delta1.shape)[curve]
-            ax.plot(delta1[curve], abs(figure.psi_c[curve] / formula(ez) - 1), label=name,
-                    **_style(figure, curve))
+            ax.plot(delta1[curve], figure.psi_c_error[curve], label=name,
+                    **plot.look(curve, curves))
             continue
-        ax.plot(figure.lines.x, formula(figure.lines.ez[curve]), label=name, **_style(figure, curve, marker=""))
-        ax.plot(delta1[curve], figure.psi_c[curve], **_style(figure, curve, linestyle=""))
-    _axis(figure, ax, "δ₁", r"|simulated ψ over ψ of (31), − 1|" if error else r"$\psi_c$")
-    if error:
-        ax.set_yscale("log")
+        ax.plot(figure.lines.x, figure.formula(figure.lines.ez[curve]), label=name,
+                **plot.look(curve, curves, marker=""))
+        ax.plot(delta1[curve], figure.psi_c[curve], **plot.look(curve, curves, linestyle=""))
+    _axes(figure, ax, "δ₁", "|simulated ψ over ψ of (31), − 1|" if error else r"$\psi_c$",
+          yscale="log" if error else "linear")
 
 
-def _maxwell(figure, first, second):
-    limit = no_rebound_limit()
-    for ax, quantity, title in ((first, "ez", "Normal restitution"), (second, "ex", "Tangential restitution")):
-        _curves(figure, ax, quantity)
-        _axis(figure, ax, "τ / T", _QUANTITIES[quantity], title)
-        ax.axvline(limit, color=RED, linestyle="-.", linewidth=2.2, label="limit of rebound")
-    first.set_ylim(bottom=0)
-
-
-def _temperature(figure, first, second):
-    for ax, quantity, title in ((first, "ez", "Normal restitution"), (second, "ex", "Tangential restitution")):
-        _points(figure, ax, quantity, names=_names(figure), marker="")
-        _axis(figure, ax, "normal speed (m/s)", _QUANTITIES[quantity], title)
-    first.set_ylim(bottom=0)
+def _two(figure, *axes):
+    """Over tau/T or the normal speed, e_z and e_x."""
+    maxwell = figure.spec.kind == "maxwell"
+    for ax, quantity in zip(axes, QUANTITIES):
+        if maxwell:
+            _curves(figure, ax, quantity)
+            ax.axvline(no_rebound_limit(), label="limit of rebound", **_LIMIT)
+        else:
+            _points(figure, ax, quantity, names=_names(figure), marker="")
+        _axes(figure, ax, "τ / T" if maxwell else "normal speed (m/s)", QUANTITIES[quantity],
+              title=TITLES[quantity])
+    axes[0].set_ylim(bottom=0)
 
 
 def _tangent(figure, ax):
     _points(figure, ax, "ez", loss_tangent(figure), _names(figure), linestyle="")
-    _axis(figure, ax, "loss tangent at the frequency  1 / (2 contact time)", "$e_z$")
+    _axes(figure, ax, "loss tangent at the frequency 1 / (2 contact time)", "$e_z$")
     ax.set(xlim=(figure.spec.low, 20), ylim=(0, 1.02))
 
 
-def _friction(figure, first, second):
-    x = figure.along(np.arange(LINE) / (LINE - 1))
-    parts = (figure.ledger.friction_x, figure.ledger.viscous_x + figure.ledger.left_x)
-    for ax, part, title in zip((first, second), parts, ("To friction", "To the material")):
+def _friction(figure, *axes):
+    lost = figure.ledger
+    for ax, part, title in zip(axes, (lost.friction_x, lost.viscous_x + lost.left_x),
+                               ("To friction", "To the material")):
         for curve, name in enumerate(_names(figure)):
-            ax.plot(x, part[curve], label=name, **_style(figure, curve, marker=""))
+            ax.plot(figure.line, part[curve], label=name,
+                    **plot.look(curve, figure.curves, marker=""))
         ax.set(xlabel="ψ", ylabel="part of the tangential energy", title=title, ylim=(0, 1))
 
 
-def loss_tangent(figure):
-    """G''/G' at half a period per contact time, of the solid of G1 = 1 or the Maxwell body of G = 1;
-    nan without rebound. Shape (n,)."""
+def loss_tangent(figure: Any) -> np.ndarray:
+    """G''/G' at half a period per contact time of each impact, shape (n,); nan without rebound."""
     delta1, gamma, tau = (figure.aims[name] for name in ("delta1", "gamma", "tau"))
-    time = np.where(np.isfinite(figure.expected.contact_time), figure.expected.contact_time, np.nan)
-    omega, theta = np.pi / time, np.sqrt(32 / 15) * delta1
+    time = figure.expected.contact_time
+    omega, theta = np.pi / np.where(np.isfinite(time), time, np.nan), np.sqrt(32 / 15) * delta1
     with np.errstate(divide="ignore", invalid="ignore"):
         wt = omega * gamma * theta
         arm = wt / gamma / (1 + wt**2)
@@ -157,11 +148,13 @@ def _sinks_in(tau):
     while v > 1e-8:
         d, w = depth + 0.5 * step * v, v - 0.5 * step * 15 / 8 * force
         f = force + 0.5 * step * (depth**0.5 * v - force / tau)
-        depth, v, force = depth + step * w, v - step * 15 / 8 * f, force + step * (d**0.5 * w - f / tau)
+        depth, v = depth + step * w, v - step * 15 / 8 * f
+        force += step * (d**0.5 * w - f / tau)
     return v > 0 and 7.5 * tau**2 * depth**0.5 < 1
 
 
-def no_rebound_limit():
+@functools.lru_cache(None)
+def no_rebound_limit() -> float:
     """Least tau/T with which a sphere leaves a Maxwell body."""
     low, high = 0.1, 3.0
     while high - low > 1e-5:

@@ -3,16 +3,15 @@
 figure itself."""
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from restitute.paper.charts import loss_tangent, no_rebound_limit
-from restitute.paper.figures import formula
 
 
 class Check(NamedTuple):
-    """A number, the range it must be in."""
+    """A number, and the range that it must be in."""
 
     what: str
     value: float
@@ -29,24 +28,25 @@ class Check(NamedTuple):
                 f"{'ok' if self.good else 'FAILED'}")
 
 
-def checks(figure) -> list:
+def checks(figure: Any) -> list[Check]:
     """All of a figure whose impacts are solved."""
     kind = figure.spec.kind
-    found = [] if kind == "temperature" else _scatter(figure)
-    of = {"ez": _kelvin_voigt if figure.curves == 1 else _minimum, "map": _map, "no_slip": _no_slip,
-          "psi_c": _psi_c, "psi_c_error": _convergence, "maxwell": _maxwell, "tangent": _tangent,
-          "friction": _friction}
-    return [Check(*check) for check in [*found, *(of[kind](figure) if kind in of else [])]]
+    if kind == "temperature":
+        return []
+    of = {"map": _map, "no_slip": _no_slip, "psi_c": _psi_c, "psi_c_error": _convergence,
+          "maxwell": _maxwell, "tangent": _tangent, "friction": _friction}
+    own = of.get(kind, _kelvin_voigt if figure.curves == 1 else _minimum)
+    return [Check(*check) for check in [*_scatter(figure), *own(figure)]]
 
 
 def _scatter(figure):
     """How far the impacts in SI units lie from what their dimensionless numbers give."""
     pairs, expected = figure.pairs, figure.expected
     solved, rebound = pairs.status >= 0, np.isfinite(pairs.contact_time)
-    ez = abs(pairs.ez - expected.ez)[solved]
-    ex = abs(pairs.ex - expected.ex)[solved & rebound]
-    return [("scatter of e_z about the curves", np.max(ez), 0, figure.tolerance),
-            ("scatter of e_x about the curves", np.max(ex), 0, figure.tolerance)]
+    ez = np.max(abs(pairs.ez - expected.ez)[solved])
+    ex = np.max(abs(pairs.ex - expected.ex)[solved & rebound])
+    return [("scatter of e_z about the curves", ez, 0, figure.tolerance),
+            ("scatter of e_x about the curves", ex, 0, figure.tolerance)]
 
 
 def _kelvin_voigt(figure):
@@ -54,37 +54,36 @@ def _kelvin_voigt(figure):
     small, large = np.sqrt(32 / 15) * 1e-3, np.sqrt(32 / 15) * 100
     ez = figure.in_numbers(0.0, [1e-3, 100]).ez
     return [("largest rise of e_z between neighbours", np.max(np.diff(figure.lines.ez[0])), -1, 0),
-            ("(1 - e_z)/theta at delta1 = 0.001, in the limit 1.8917", (1 - ez[0]) / small, 1.87, 1.8918),
+            ("(1 - e_z)/theta at delta1 = 0.001, in the limit 1.8917", (1 - ez[0]) / small,
+             1.87, 1.8918),
             ("e_z over its asymptote (4/(5 theta))^(2/3)/theta at delta1 = 100",
              ez[1] * large / (0.8 / large) ** (2 / 3), 0.97, 1.03)]
 
 
 def _minimum(figure):
-    """The grid of 241 places lets the minimum lie 2 % beside its place and 1e-4 above its depth."""
+    """The 241 places let the minimum lie 2 % beside its place and 1e-4 above its depth."""
     line = figure.lines.ez[figure.spec.curves.index(0.0825)]
     at = np.argmin(line)
     return [("gamma = 0.0825: least e_z", line[at], 0.1895, 0.1915),
-            ("gamma = 0.0825: delta1 of it", figure.lines.x[at], 1.2, 1.5),
+            ("gamma = 0.0825: delta1 of it", figure.line[at], 1.2, 1.5),
             ("gamma = 0.0825: e_z at delta1 = 100", line[-1], 0.95, 1)]
 
 
 def _reach(figure, gamma):
     """The largest delta1 up to which e_x at psi = 2 stays above 0.45."""
-    above = figure.in_numbers(2.0, figure.lines.x, gamma).ex - 0.45
-    below = np.flatnonzero(above < 0)
-    i = below[below > 0][0] if np.any(below > 0) else len(above) - 1
-    return np.interp(0, [above[i], above[i - 1]], [figure.lines.x[i], figure.lines.x[i - 1]])
+    above = figure.in_numbers(2.0, figure.line, gamma).ex - 0.45
+    i = int(np.argmax(above < 0))  # 0 if it stays above
+    return np.interp(0, above[[i, i - 1]], figure.line[[i, i - 1]])
 
 
 def _map(figure):
     gamma = figure.spec.curves[0]
-    reach = {value: _reach(figure, value) for value in (0, 0.0825, 1)}
     if gamma == 0:
         return _elastic(figure)
-    if gamma < 1:
-        return [("e_x > 0.45 at psi = 2 up to delta1, more than Kelvin-Voigt", reach[0.0825] / reach[0], 1.001,
-                 np.inf)]
-    return [("e_x > 0.45 at psi = 2 up to delta1, more than gamma = 0.0825", reach[1] / reach[0.0825], 1.1, np.inf)]
+    before, name, least = {0.0825: (0, "Kelvin-Voigt", 1.001),
+                           1: (0.0825, "gamma = 0.0825", 1.1)}[gamma]
+    return [(f"e_x > 0.45 at psi = 2 up to delta1, more than {name}",
+             _reach(figure, gamma) / _reach(figure, before), least, np.inf)]
 
 
 def _elastic(figure):
@@ -93,7 +92,8 @@ def _elastic(figure):
     simulated = figure.simulated_psi_c(128, np.zeros(1), np.full(1, np.inf))[0]
     return [("elastic: largest e_x", np.max(ex), 0.5965, 0.5975),
             ("elastic: psi of it", psi[np.argmax(ex)], 1.88, 1.90),
-            ("elastic: psi_c by simulation with 128 elements, 11/3", simulated, 11 / 3 - 1e-4, 11 / 3 + 1e-4)]
+            ("elastic: psi_c by simulation with 128 elements, 11/3", simulated,
+             11 / 3 - 1e-4, 11 / 3 + 1e-4)]
 
 
 def _no_slip(figure):
@@ -103,48 +103,46 @@ def _no_slip(figure):
             for where, end in zip(("1e-4", "1e4"), ends)]
 
 
-def _errors(figure):
-    return abs(figure.psi_c / formula(figure.expected.ez.reshape(figure.curves, -1)) - 1)
-
-
 def _psi_c(figure):
     """64 elements of a scheme of first order: 8e-5 where it is worst."""
-    return [("largest difference of simulations with 64 elements from (31)", np.max(_errors(figure)), 0, 1.5e-4)]
+    return [("largest difference of simulations with 64 elements from (31)",
+             np.max(figure.psi_c_error), 0, 1.5e-4)]
 
 
 def _convergence(figure):
     """Half the difference with twice the elements, at every delta1: the formula is the limit."""
-    coarse, fine = _errors(figure)[-2:]
-    return [("difference with 64 elements over that with 32, least", np.min(fine / coarse), 0.42, 0.58),
-            ("the same, largest", np.max(fine / coarse), 0.42, 0.58)]
+    ratio = figure.psi_c_error[-1] / figure.psi_c_error[-2]
+    return [("difference with 64 elements over that with 32, least", np.min(ratio), 0.42, 0.58),
+            ("the same, largest", np.max(ratio), 0.42, 0.58)]
 
 
 def _maxwell(figure):
-    """The first is a value of tests/data/prony_truth.csv; the limit comes from the compression alone."""
+    """First a value of tests/data/prony_truth.csv; the limit comes from the compression alone."""
     limit = no_rebound_limit()
     result = figure.in_numbers(2.0, np.nan, np.nan, [3, 0.97 * limit, 1.05 * limit])
-    return [("e_z at tau = 3 T, in the reference values 0.651750493", result.ez[0], 0.651750, 0.651751),
-            (f"duration over T at 0.97 of the limit {limit:.4f} T, solved by the library", result.contact_time[1],
-             np.inf, np.inf),
+    return [("e_z at tau = 3 T, in the reference values 0.651750493", result.ez[0],
+             0.651750, 0.651751),
+            (f"duration over T at 0.97 of the limit {limit:.4f} T, solved by the library",
+             result.contact_time[1], np.inf, np.inf),
             ("the same at 1.05", result.contact_time[2], 0, 100)]
 
 
 def _tangent(figure):
-    """Distance in e_z from the Kelvin-Voigt body of the same loss tangent, whose points come in order."""
+    """Distance in e_z from Kelvin-Voigt at the same loss tangent; its points come in order."""
     x, ez, of = loss_tangent(figure), figure.pairs.ez, figure.curve
-    first = (of == 0) & np.isfinite(x)
-    inside = (of > 0) & (x >= np.min(x[first])) & (x < np.max(x[first]))
+    first, known = (of == 0) & np.isfinite(x), (of > 0) & np.isfinite(x)
+    inside = known & (x >= x[first][0]) & (x < x[first][-1])
     distance = abs(ez - np.interp(x, x[first], ez[first]))[inside]
-    outside = np.count_nonzero((of > 0) & np.isfinite(x) & ~inside)
     return [("largest distance from Kelvin-Voigt at equal loss tangent", np.max(distance), 0, 0.13),
             ("the same at loss tangents below 0.3", np.max(distance[x[inside] < 0.3]), 0, 0.09),
-            ("points left out, for no Kelvin-Voigt impact has their loss tangent", outside, 0, 80)]
+            ("points left out, since no Kelvin-Voigt impact has their loss tangent",
+             np.count_nonzero(known & ~inside), 0, 80)]
 
 
 def _friction(figure):
-    """In slip to the end, psi = 6, e_x is (27), and what is lost without a dashpot is lost to friction."""
-    ex = figure.in_numbers(6.0, 0.0, np.inf).ex
-    material = abs(figure.ledger.viscous_x + figure.ledger.left_x)[0]
-    return [("elastic: part to friction at psi = 6 less 1 - e_x^2", figure.ledger.friction_x[0, -1] - (1 - ex**2), -1e-4,
-             1e-4),
-            ("elastic: largest part to the material", np.max(material), 0, 1e-2)]
+    """In slip to the end, psi = 6, e_x is (27); without a dashpot all loss is to friction."""
+    ex, lost = figure.in_numbers(6.0, 0.0, np.inf).ex, figure.ledger
+    return [("elastic: part to friction at psi = 6 less 1 - e_x^2",
+             lost.friction_x[0, -1] - (1 - ex**2), -1e-4, 1e-4),
+            ("elastic: largest part to the material",
+             np.max(abs(lost.viscous_x + lost.left_x)[0]), 0, 1e-2)]

@@ -10,12 +10,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from restitute import _library, errors
+from restitute import errors
 from restitute.paper import impacts
 from restitute.paper.slip import critical_psi
 
-LINE = 241  # places of a line
-NUMBERS = ("psi", "delta1", "gamma", "tau")
+PSIS = 76  # curves of a map: psi from 0 to 5 by 1/15, with the kinks at 1, 7/3 and 11/3
 
 
 class Spec(NamedTuple):
@@ -49,22 +48,16 @@ SPECS = {
     "friction": Spec("What friction does to the tangential energy", "friction", (0, 0.1, 0.3, 1, 3),
                      48, 0.05, 6),
 }
-PSIS = 76  # curves of a map: psi from 0 to 5 by 1/15, with the kinks at 1, 7/3 and 11/3
 
 
 def time_shift(temperature):
     """a_T of polyisobutylene at a temperature in degrees Celsius, 1 at 25.
 
-    By the equation of Williams, Landel and Ferry, with the constants for 298 K of Ferry, Viscoelastic
-    Properties of Polymers, table 11-II.
+    By the equation of Williams, Landel and Ferry, with the constants for 298 K of Ferry,
+    Viscoelastic Properties of Polymers, table 11-II.
     """
     difference = np.asarray(temperature) - 25.0
     return 10 ** (-8.61 * difference / (200.4 + difference))
-
-
-def formula(ez):
-    """psi_c = 2 chi (1 + e_z) - e_z (31)."""
-    return 2 * impacts.CHI * (1 + ez) - ez
 
 
 class Figure:
@@ -103,10 +96,11 @@ class Figure:
         if name not in SPECS:
             raise errors.DomainError(f"figure = {name!r}: must be one of {', '.join(SPECS)}")
         if tolerance < 1e-6:
-            raise errors.DomainError(f"tolerance = {tolerance:g}: must be at least 1e-6 in a figure, "
-                                     "whose lines are solved with a hundredth")
+            raise errors.DomainError(f"tolerance = {tolerance:g}: must be at least 1e-6 in a "
+                                     "figure, whose lines are solved with a hundredth")
         self.name, self.spec, self.seed, self.material = name, SPECS[name], seed, material
-        self.method, self.tolerance, self.pairs = method, tolerance, None
+        self.method, self.tolerance = method, tolerance
+        self.pairs: Any = None
         self._draw()
 
     @property
@@ -114,115 +108,131 @@ class Figure:
         """How many curves there are; of a map, how many psi."""
         return PSIS if self.spec.kind == "map" else len(self.spec.curves)
 
-    def along(self, part):
+    def along(self, part: Any) -> Any:
         """A place on the axis, part of the way from its low to its high end."""
         low, high = self.spec.low, self.spec.high
-        return low + (high - low) * part if self.spec.kind == "friction" else low * (high / low) ** part
+        if self.spec.kind == "friction":
+            return low + (high - low) * part
+        return low * (high / low) ** part
 
-    def numbers_at(self, curve, x, psi=1.0):
-        """(psi, delta1, gamma, tau) of a curve at x along the axis."""
-        value = self.spec.curves[0 if self.spec.kind == "map" else curve]
-        none = math.nan
-        return {"no_slip": (0.0, x, value, none), "map": (curve / 15, x, value, none),
-                "psi_c_error": (psi, x, 0.3, none), "maxwell": (value, none, none, x),
-                "tangent": (psi, x, value, none) if value == value else (psi, none, none, x),
-                "friction": (x, value, 0.3, none)}.get(self.spec.kind, (psi, x, value, none))
+    def numbers_at(self, curve: int, x: Any, psi: Any = 1.0) -> tuple:
+        """psi, delta1, gamma, tau of a curve at x along the axis."""
+        kind, none = self.spec.kind, math.nan
+        value = self.spec.curves[0 if kind == "map" else curve]
+        of = {"no_slip": (0.0, x, value, none), "map": (curve / 15, x, value, none),
+              "psi_c_error": (psi, x, 0.3, none), "maxwell": (value, none, none, x),
+              "friction": (x, value, 0.3, none)}
+        return of.get(kind, (psi, x, value, none) if value == value else (psi, none, none, x))
 
     def _draw(self):
         """Along the axis points lie at random, one in each of equal parts; those of maps, and those
         that are compared with each other, are regular."""
-        spec, random = self.spec, impacts.Random(self.seed * 1000 + list(SPECS).index(self.name))
-        regular, aims, rows = spec.kind in ("map", "temperature", "psi_c_error"), [], []
+        spec, aims, rows = self.spec, [], []
+        random = impacts.Random(self.seed * 1000 + list(SPECS).index(self.name))
+        regular = spec.kind in ("map", "temperature", "psi_c_error")
         self.curve = np.repeat(np.arange(self.curves), spec.points)
         for curve, point in np.ndindex(self.curves, spec.points):
             psi, where = random.even(0.2, 5), random.even(0, 1)
             x = self.along(point / (spec.points - 1) if regular else (point + where) / spec.points)
-            if spec.kind == "temperature":
-                aims.append((x,) * 4)
-                continue
             psi, delta1, gamma, tau = self.numbers_at(curve, x, psi)
             if 0.3 < tau < 0.4:  # close to the limit of rebound, 0.312, contacts last for very long
                 tau *= 4 / 3
             aims.append((psi, delta1, gamma, tau))
-            rows.append(impacts.draw(random, *aims[-1]))
-        self.aims = dict(zip(NUMBERS, np.array(aims).T))
-        if spec.kind == "temperature":
-            normal = self.aims.pop("psi")
-            self.aims = {}
-            self.columns = {"time_shift": time_shift(np.array(spec.curves))[self.curve],
-                            "radius": np.full(len(normal), 0.005), "density": np.full(len(normal), 7800.0),
-                            "friction": np.full(len(normal), 0.3), "angle": np.full(len(normal), 30.0),
-                            "speed": normal / np.cos(np.radians(30))}
+            if spec.kind != "temperature":
+                rows.append(impacts.draw(random, *aims[-1]))
+        self.aims = dict(zip(("psi", "delta1", "gamma", "tau"), np.array(aims).T))
+        if rows:
+            self.columns = {name: np.array([row[name] for row in rows]) for name in rows[0]}
             return
-        names = list(dict.fromkeys(name for row in rows for name in row))
-        self.columns = {name: np.array([row.get(name, np.nan) for row in rows]) for name in names}
+        self.normal_speed, self.aims = self.aims["delta1"], {}
+        ball = {"radius": 0.005, "density": 7800.0, "friction": 0.3, "angle": 30.0}
+        self.columns = {name: np.full(len(aims), value) for name, value in ball.items()}
+        self.columns["speed"] = self.normal_speed / np.cos(np.radians(30))
+        self.columns["time_shift"] = time_shift(np.array(spec.curves))[self.curve]
 
     @property
-    def x(self):
+    def x(self) -> np.ndarray:
         """Where the impacts are along the axis, shape (n,)."""
-        if self.spec.kind == "temperature":
-            return self.columns["speed"] * np.cos(np.radians(self.columns["angle"]))
         name = {"maxwell": "tau", "friction": "psi"}.get(self.spec.kind, "delta1")
-        return self.aims[name]
+        return self.aims[name] if self.aims else self.normal_speed
 
-    def in_numbers(self, psi, delta1, gamma=0.0, tau=np.nan, **more):
-        """Impacts of dimensionless numbers alone, broadcast, at a hundredth of the tolerance."""
+    @property
+    def line(self) -> np.ndarray:
+        """Where the lines are solved along the axis, shape (241,)."""
+        return self.along(np.arange(241) / 240)
+
+    def in_numbers(self, psi: Any, delta1: Any, gamma: Any = 0.0, tau: Any = np.nan,
+                   **more: Any) -> Any:
+        """Impacts of dimensionless numbers alone, broadcast, at a hundredth of the tolerance.
+
+        Those that fail are nan. Without rebound the contact time is inf.
+        """
         psi, delta1, gamma, tau = np.broadcast_arrays(psi, delta1, gamma, tau)
-        fine = max(1e-8, 0.01 * self.tolerance)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", errors.ModelLimitWarning)
-            if not (np.isnan(tau).any() and np.isfinite(tau).any()):
-                return impacts.in_numbers(psi, delta1, gamma, tau, tolerance=fine, **more)
-            maxwell, whole = np.isfinite(tau), {}
-            for part in (maxwell, ~maxwell):
-                some = impacts.in_numbers(psi[part], delta1[part], gamma[part], tau[part], tolerance=fine)
-                for member in ("ez", "ex", "contact_time"):
-                    whole.setdefault(member, np.full(tau.shape, np.nan))[part] = getattr(some, member)
-            return SimpleNamespace(**whole)
+        more = {"tolerance": max(1e-8, 0.01 * self.tolerance), **more}
+        maxwell = np.isfinite(tau)
+        if maxwell.all() or not maxwell.any():
+            return impacts.in_numbers(psi, delta1, gamma, tau, **more)
+        whole = {name: np.full(tau.shape, np.nan) for name in ("ez", "ex", "contact_time")}
+        for part in (maxwell, ~maxwell):
+            some = impacts.in_numbers(psi[part], delta1[part], gamma[part], tau[part], **more)
+            for name, values in whole.items():
+                values[part] = getattr(some, name)
+        return SimpleNamespace(**whole)
 
     @cached_property
-    def expected(self):
+    def expected(self) -> Any:
         """What the numbers of the impacts alone give: ez, ex, contact_time, ..., shape (n,)."""
         return self.in_numbers(**self.aims)
 
     @cached_property
-    def lines(self):
-        """Lines of the numbers: x, ez, ex of shape (curves, LINE). Without rebound e_x is nan."""
-        x = self.along(np.arange(LINE) / (LINE - 1))
+    def lines(self) -> Any:
+        """Lines of the numbers: ez, ex of shape (curves, 241), x. Without rebound e_x is nan."""
         curves = range(1 if self.spec.kind == "map" else self.curves)
-        numbers = [np.broadcast_arrays(*self.numbers_at(curve, x)) for curve in curves]
+        numbers = [np.broadcast_arrays(*self.numbers_at(curve, self.line)) for curve in curves]
         found = self.in_numbers(*np.moveaxis(np.array(numbers, float), 1, 0))
-        return SimpleNamespace(x=x, ez=found.ez, ex=np.where(np.isinf(found.contact_time), np.nan, found.ex))
+        ex = np.where(np.isinf(found.contact_time), np.nan, found.ex)
+        return SimpleNamespace(x=self.line, ez=found.ez, ex=ex)
 
     @cached_property
-    def ledger(self):
-        """Energies along the lines, each of shape (curves, LINE); of the figure "friction"."""
-        x = self.along(np.arange(LINE) / (LINE - 1))
-        return self.in_numbers(x, np.array(self.spec.curves)[:, None], 0.3, energies=True).ledger
+    def ledger(self) -> Any:
+        """Energies along the lines, each of shape (curves, 241); of the figure "friction"."""
+        delta1 = np.array(self.spec.curves)[:, None]
+        return self.in_numbers(self.line, delta1, 0.3, energies=True).ledger
 
-    def simulated_psi_c(self, elements, delta1, gamma):
+    @staticmethod
+    def formula(ez: Any) -> Any:
+        """psi_c = 2 chi (1 + e_z) - e_z (31)."""
+        return 2 * impacts.CHI * (1 + ez) - ez
+
+    def simulated_psi_c(self, elements: int, delta1: np.ndarray, gamma: np.ndarray) -> np.ndarray:
         """psi_c by simulation, shape (n,)."""
         result = self.in_numbers(1.0, delta1, gamma)
-        return critical_psi(impacts.CHI, *np.broadcast_arrays(delta1, gamma), result.max_contact_radius,
+        return critical_psi(impacts.CHI, delta1, gamma, result.max_contact_radius,
                             result.contact_time, elements)
 
     @cached_property
-    def psi_c(self):
-        """psi_c of the impacts of the figures 10 and 11 by simulation, shape (curves, points)."""
+    def psi_c(self) -> np.ndarray:
+        """psi_c by simulation of the impacts of the figures 10 and 11, shape (curves, points)."""
         delta1, gamma = (self.aims[name].reshape(self.curves, -1) for name in ("delta1", "gamma"))
-        errors_ = self.spec.kind == "psi_c_error"
-        return np.array([self.simulated_psi_c(self.spec.curves[k] if errors_ else 64, delta1[k], gamma[k])
+        elements = self.spec.curves if self.spec.kind == "psi_c_error" else [64] * self.curves
+        return np.array([self.simulated_psi_c(int(elements[k]), delta1[k], gamma[k])
                          for k in range(self.curves)])
+
+    @property
+    def psi_c_error(self) -> np.ndarray:
+        """|psi_c/(31) - 1|, likewise."""
+        return abs(self.psi_c / self.formula(self.expected.ez).reshape(self.curves, -1) - 1)
 
     def solve(self, **how: Any) -> Figure:
         """Solve the impacts; keywords of `restitute.pair`, e.g. threads, executor, progress."""
         import restitute
 
-        given = impacts.keywords(self.columns) if self.aims else {**self.columns, "material": self.material}
+        given = impacts.keywords(self.columns) if self.aims else self.columns
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", errors.ModelLimitWarning)  # the figure marks them
-            self.pairs = restitute.pair(**given, method=self.method, tolerance=self.tolerance,
-                                        on_error="nan", **how)
+            self.pairs = restitute.pair(
+                **{"material": self.material, **given}, method=self.method,
+                tolerance=self.tolerance, on_error="nan", **how)
         return self
 
     def draw(self, ax: Any = None) -> Any:
@@ -239,7 +249,7 @@ class Figure:
 
     def description(self) -> str:
         """Given what."""
-        if self.spec.kind == "temperature":
-            return ("steel ball of radius 5 mm, friction 0.3, 30 degrees; times shifted as polyisobutylene's "
-                    "(Williams, Landel and Ferry)")
-        return f"χ = 7/6; {len(self.curve)} impacts drawn in SI units, seed {self.seed}"
+        if self.aims:
+            return f"χ = 7/6; {len(self.curve)} impacts drawn in SI units, seed {self.seed}"
+        return ("steel ball of radius 5 mm, friction 0.3, 30 degrees; times shifted as "
+                "polyisobutylene's (Williams, Landel and Ferry)")

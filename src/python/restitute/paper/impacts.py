@@ -7,10 +7,12 @@ library.
 from __future__ import annotations
 
 import math
+import warnings
 
 import numpy as np
 
-from restitute.materials import Material, solids
+from restitute import errors
+from restitute.materials import solids
 
 CHI = 7 / 6  # an incompressible solid sphere
 
@@ -57,15 +59,17 @@ def draw(random: Random, psi, delta1, gamma, tau) -> dict:
     mass, radius = (1 / sum(1 / body[i] for body in bodies) for i in (0, 1))
     effective = modulus / (2 if partner == "same" else 1)
     a_el = (15 * mass * speed**2 * radius**2 * (1 - nu) / (32 * effective)) ** 0.2  # (24)
-    row = {"modulus1": modulus, "poisson_ratio": nu, "partner": partner}
+    row = {"modulus1": modulus, "modulus2": math.inf, "viscosity": 0.0, "poisson_ratio": nu}
     if not math.isnan(tau):
-        row.update(modulus1=0.0, modulus2=modulus, viscosity=modulus * tau * a_el**2 / (radius * speed))
+        row.update(modulus1=0.0, modulus2=modulus,
+                   viscosity=modulus * tau * a_el**2 / (radius * speed))
     elif delta1 > 0:  # (23)
-        row["viscosity"] = delta1 / math.sqrt(a_el / (effective * mass * (1 - nu))) * modulus / effective
-        if gamma > 0:
-            row["modulus2"] = modulus / gamma
+        row["viscosity"] = (delta1 / math.sqrt(a_el / (effective * mass * (1 - nu)))
+                            * modulus / effective)
+        row["modulus2"] = modulus / gamma if gamma > 0 else math.inf
+    row.update(partner=partner, radius2=math.inf, mass2=math.inf, inertia2=0.0)
     for body, own in zip(bodies, ("", "2")):
-        row.update({f"mass{own}": body[0], f"radius{own}": body[1],
+        row.update({f"radius{own}": body[1], f"mass{own}": body[0],
                     f"inertia{own}": k * body[0] * body[1] ** 2})
     # (22) solved for the sliding speed, of which a share is the centre's and the rest the spin's
     sliding = (psi or 1.0) * friction * speed * (2 - nu) / (2 - 2 * nu)
@@ -82,29 +86,23 @@ def _sphere(random):
 
 
 def keywords(columns: dict) -> dict:
-    """Columns of drawn impacts, nan where a value is not given, as keywords of `restitute.pair`."""
-    given = {name: np.asarray(values) for name, values in columns.items()}
-    constants = [given.pop(name, empty) for name, empty in (("modulus1", 0), ("modulus2", np.nan),
-                                                            ("viscosity", np.nan))]
-    modulus1, modulus2, viscosity = constants
-    for name, empty in (("radius2", np.inf), ("mass2", np.inf), ("inertia2", 0.0)):
-        if name in given:
-            given[name] = np.where(np.isnan(given[name]), empty, given[name])
-    material = solids(modulus1, np.where(np.isnan(modulus2), np.inf, modulus2),
-                      np.where(np.isnan(viscosity), 0, viscosity), given.pop("poisson_ratio"))
-    return {"material": material, **given}
+    """Columns of drawn impacts as keywords of `restitute.pair`."""
+    given = dict(columns)
+    solid = [given.pop(name) for name in ("modulus1", "modulus2", "viscosity", "poisson_ratio")]
+    return {"material": solids(*solid), **given}
 
 
-def in_numbers(psi, delta1, gamma, tau, *, energies=False, tolerance):
-    """Impacts of dimensionless numbers alone, arrays of one shape, solved by sync; nan if one fails.
+def in_numbers(psi, delta1, gamma, tau, **how):
+    """Impacts of dimensionless numbers alone, arrays of one shape, solved by sync.
 
     A Maxwell body is one of G = 1 Pa in a scene whose T, a_el and d0 are 1.
     """
     import restitute
 
-    solver = {"method": "sync", "tolerance": tolerance, "on_error": "nan"}
+    how = {"method": "sync", "on_error": "nan", **how}
     if np.all(np.isnan(tau)):
-        return restitute.pair(chi=CHI, psi=psi, delta1=delta1, gamma=gamma, energies=energies, **solver)
-    material = np.array([Material.maxwell(1, value) for value in np.ravel(tau)], object)
-    return restitute.pair(material.reshape(np.shape(tau)), radius=1, mass=64 / 15, friction=1,
-                          normal_speed=1, tangential_speed=1.5 * np.asarray(psi), **solver)
+        return restitute.pair(chi=CHI, psi=psi, delta1=delta1, gamma=gamma, **how)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", errors.ModelLimitWarning)
+        return restitute.pair(solids(0.0, 1.0, tau), radius=1, mass=64 / 15, friction=1,
+                              normal_speed=1, tangential_speed=1.5 * psi, **how)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From which psi on the contact slips to the end, by simulation: the paper's algorithm, (5), (8)-(17).
+"""From which psi on the contact slips to the end, by simulation: the algorithm of the paper.
 
-Positions first, then the forces of all elements, the inner displacements by backward Euler,
-velocities last; fixed step, fixed elements; friction on a slipping element has the direction of the
-trial force. It shares no code with the library, nor the formula (31).
+(5), (8)-(17): positions first, then the forces of all elements, the inner displacements by backward
+Euler, velocities last; fixed step, fixed elements; friction on a slipping element has the direction
+of the trial force. It shares no code with the library, nor the formula (31).
 """
 from __future__ import annotations
 
@@ -45,8 +45,8 @@ def critical_psi(chi, delta1, gamma, radius, time, elements: int) -> np.ndarray:
     chi : float
     delta1, gamma : ndarray, shape (n,)
     radius, time : ndarray, shape (n,)
-        Largest contact radius (a_el) and duration (T), which set the spacing of the elements and the
-        time step.
+        Largest contact radius (a_el) and duration (T), which set the spacing of the elements and
+        the time step.
     elements : int
         Over the largest contact radius.
 
