@@ -10,6 +10,7 @@ Every component is loaded when it is first named: `core`, `cvode`, `table`, `tab
 """
 import os
 import queue
+import re
 import sys
 import threading
 import warnings
@@ -32,7 +33,8 @@ def __getattr__(name):
 def _load(component):
     path = LIBRARIES.get(component)
     if path is None:
-        raise errors.MissingComponent(f"the component {component} is not installed with this package")
+        raise errors.MissingComponent(f"the component {component} is not installed with this "
+                                      "package")
     if component != "core":
         __getattr__("core")  # first, so that the component finds it loaded
     return ffi.dlopen(os.path.join(os.path.dirname(__file__), path))
@@ -46,6 +48,13 @@ def available(component):
 def text(chars):
     """A string of C."""
     return ffi.string(chars).decode("utf-8", "replace")
+
+
+def message_of(error):
+    """The words of a restitute_error, with numbers as short as they can be: 0.6 for
+    0.59999999999999998."""
+    long_number = r"(?<=[ \[(-])\d+\.\d{14,}(e[-+]\d+)?(?=[]:,;) ]|$)"
+    return re.sub(long_number, lambda match: repr(float(match[0])), text(error.message))
 
 
 def string(value):
@@ -78,7 +87,7 @@ def call(function, *arguments):
     """
     error = ffi.new("restitute_error *")
     status = function(*arguments, error)
-    message = text(error.message)
+    message = message_of(error)
     if status < 0:
         raise exception(status, message or text(core.restitute_status_text(status)))
     return status, message

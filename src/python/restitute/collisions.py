@@ -87,7 +87,7 @@ def collide(material: Any, first: Body, second: Body, *, partner: Any = "rigid",
         for i in range(count):
             solved.status[i] = _library.core.restitute_collide(pointer, *(p + i for p in pointers), error)
             if error.message[0] != b"\0":
-                solved.messages[i] = _library.text(error.message)
+                solved.messages[i] = _library.message_of(error)
     pairs = report(None, shape, solved, asked, on_error)
     for record in records[1:]:
         for name in ("velocity", "spin"):

@@ -235,7 +235,7 @@ def pair(material: Any = None, *, method: str = "euler", energies: bool = False,
     DomainError, SolverError
         The text names the value, its range and the impact, whose place is `index`.
     KeyboardInterrupt
-        Ctrl-C ends a long batch within about half a second, or after the impact that is solved.
+        Ctrl-C ends a long batch within about a second, or after the impact that is solved.
 
     Warns
     -----

@@ -192,10 +192,11 @@ class Material:
         return np.where(t > 0, value, np.nan)[()]
 
     def _sine_cosine(self, frequency: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """omega, and sine and cosine of arctan(omega tau): squares of large numbers do not overflow."""
+        """omega, and sine and cosine of arctan(omega tau): no square overflows."""
         omega = np.asarray(frequency, float)
         omega = np.where(omega >= 0, omega, np.nan)
-        x = omega[..., None] * self.series.relaxation_time
+        with np.errstate(over="ignore"):
+            x = np.minimum(omega[..., None] * self.series.relaxation_time, 1e150)
         cosine = 1 / np.hypot(1, x)
         return omega, x * cosine, cosine
 

@@ -98,14 +98,14 @@ def _usage():
 
 def _version():
     import restitute
-    from restitute._places import LIBRARIES
+    from restitute._library import available
 
     text = f"restitute {restitute.version()}\nLicence: BSD-3-Clause."
     for component, (library, number, kind) in _LICENCES.items():
-        if component in LIBRARIES:
+        if available(component):
             text += (f"\nThis build links {library}, which is under the GNU General Public "
-                     f"License, version {number} or\nlater, for the {kind} {component}: it can be passed on "
-                     "under that licence only.")
+                     f"License, version {number} or\nlater, for the {kind} {component}: it can be "
+                     "passed on under that licence only.")
     return text + "\n"
 
 

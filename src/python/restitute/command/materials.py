@@ -36,7 +36,7 @@ def run(arguments):
         word = problem.read_material(name, "material")
         emit(_page(restitute.material(word, temperature=arguments.temperature)))
         return 0
-    lines = [f"{'name':18} {'density':>8} {'G(0), Pa':>10} {'G(inf), Pa':>10}  {'nu':5}  what it is"]
+    lines = [f"{'name':18} {'kg/m^3':>8} {'G(0), Pa':>10} {'G(inf), Pa':>10}  {'nu':5}  full name"]
     for word in problem.names():
         material = problem.material_of(word)
         stiff, soft = _moduli(material.series)

@@ -70,7 +70,7 @@ class Field:
     def __init__(self, row):
         cells = re.split(r" ?\| ?", " ".join(row.split()), maxsplit=4)
         names, self.unit, ends, special, help = cells
-        self.name, *self.older = names.split()
+        self.name, self.older = names.split()[0], names.split()[1:]
         self.key, self.option = self.name + _SUFFIXES[self.unit], "--" + self.name.replace("_", "-")
         low, high = ends[1:-1].split(", ")
         self.low, self.high = number(low), number(high)
@@ -138,7 +138,7 @@ def read_switch(text, place):
 
 def add_fields(group, fields):
     """Options of the fields of these names."""
-    for field in map(FIELDS.get, fields):
+    for field in (FIELDS[name] for name in fields):
         options.add(group, field.option[2:], "NUMBER", field.help, field.read, also=field.older)
 
 
