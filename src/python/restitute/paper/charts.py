@@ -22,8 +22,8 @@ def draw(figure: Any, ax: Any = None) -> Any:
         origin = f"restitute {version()}, method {figure.method}, tolerance {figure.tolerance:g}"
         ax = plot.sheet(panels, figure.spec.title, figure.description(), origin)
     axes = np.ravel(ax)
-    of = {"map": _map, "psi_c": _psi_c, "psi_c_error": _psi_c, "maxwell": _two,
-          "temperature": _two, "tangent": _tangent, "friction": _friction}
+    of: dict = {"map": _map, "psi_c": _psi_c, "psi_c_error": _psi_c, "maxwell": _two,
+                "temperature": _two, "tangent": _tangent, "friction": _friction}
     of.get(kind, _over_delta1)(figure, *axes)
     legend(axes[-1])
     return ax

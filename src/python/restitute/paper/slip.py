@@ -69,7 +69,8 @@ def critical_psi(chi, delta1, gamma, radius, time, elements: int) -> np.ndarray:
 def _normal_forces(foundation, spacing, step, most):
     """Forces of all elements, step by step until all spheres have separated."""
     profile = ((np.arange(foundation.u.shape[1]) + 0.5) * spacing) ** 2
-    depth, velocity, forces = np.zeros_like(step), np.ones_like(step), []
+    depth, velocity = np.zeros_like(step), np.ones_like(step)
+    forces: list[np.ndarray] = []
     while len(forces) < most and (not forces or forces[-1].any() or (velocity > 0).any()):
         depth += step * velocity
         rest = foundation.at_rest()

@@ -107,16 +107,16 @@ def fit(fit: Any, frequency: Any = None, storage: Any = None, loss: Any = None,
     for k, (name, (measured, fitted)) in enumerate(series.items()):
         known = np.argsort(x, kind="stable")
         known = known[~np.isnan(np.asarray(measured)[known])]
+        if not known.size:
+            continue
         at, measured, fitted = x[known], np.asarray(measured)[known], fitted[known]
-        relative, look_of = name not in TITLES, look(k, len(series), marker="")
-        points = look(k, len(series), linestyle="")
+        relative, points = name not in TITLES, look(k, len(series), linestyle="")
         if dma or not relative:
             ax[0].plot(at, measured, **points)
-            ax[0].plot(at, fitted, **look_of)
-        if len(known):
-            rest = measured / fitted - 1 if relative else measured - fitted
-            words = f"{name.replace('_', ' ')}{' (relative)' if relative and not dma else ''}"
-            ax[1].plot(at, rest, label=words, **points)
+            ax[0].plot(at, fitted, **look(k, len(series), marker=""))
+        rest = measured / fitted - 1 if relative else measured - fitted
+        words = f"{name.replace('_', ' ')}{' (relative)' if relative and not dma else ''}"
+        ax[1].plot(at, rest, label=words, **points)
     ax[1].axhline(0, color="#444444", linewidth=0.8)
     if not dma and fit.flags & 8:  # RESTITUTE_FIT_FLAG_LIMITS
         ax[1].plot([], [], "x", color=RED, label="some impacts are\nbeyond a limit\nof the model")

@@ -31,7 +31,7 @@ def look(index: int, count: int, **more: Any) -> dict:
 
     >>> from restitute import plot
     >>> plot.look(1, 3, marker="")["color"]
-    '#25848e'
+    '#277e8e'
     """
     colour = matplotlib.colors.to_hex(cm.viridis(0.85 * index / max(count - 1, 1)))
     return {"color": colour, "linestyle": _DASHES[index % len(_DASHES)], "markersize": 3.5,
