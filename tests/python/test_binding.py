@@ -13,7 +13,7 @@ from restitute import _library
 from restitute._library import ffi
 
 INCLUDE = Path(os.environ.get("SOURCE_DIR", Path(__file__).parents[2])) / "include"
-HEADERS = [header for header in ("core", *_library._COMPONENTS[1:]) if _library.available(header)]
+HEADERS = [name for name in ("core", *_library._COMPONENTS) if _library.available(name)]
 TYPES = [name for name in ffi.list_types()[0] if name.startswith("restitute_")]
 STRUCTS = [name for name in TYPES if ffi.typeof(name).kind == "struct" and ffi.typeof(name).fields]
 ENUMS = [name for name in TYPES if ffi.typeof(name).kind == "enum"]
@@ -87,7 +87,8 @@ def test_records_of_numpy_are_structs_of_c_with_their_defaults():
     scenes["friction"] = [0.1, 0.2, 0.3]
     there = _library.pointer(scenes, "restitute_scene[]")
     assert [there[i].friction for i in range(3)] == [0.1, 0.2, 0.3]
-    assert (scenes["radius2"] == np.inf).all() and (scenes["struct_size"] == ffi.sizeof(there[0])).all()
+    assert (scenes["radius2"] == np.inf).all()
+    assert (scenes["struct_size"] == ffi.sizeof(there[0])).all()
     there[1].normal_speed = 7
     assert scenes["normal_speed"].tolist() == [0, 7, 0]
 

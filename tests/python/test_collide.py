@@ -31,7 +31,7 @@ def test_momentum_of_two_spheres_is_conserved():
     axis = rng.normal(size=(n, 3))
     axis /= np.linalg.norm(axis, axis=1, keepdims=True)
     mass = rng.uniform(1e-3, 1e-2, (2, n, 1))
-    velocity = 0.05 * rng.normal(size=(2, n, 3)) - 0.3 * np.array([[axis], [-axis]])[:, 0] * [[[-1]], [[-1]]]
+    velocity = 0.05 * rng.normal(size=(2, n, 3)) + 0.3 * np.array([axis, -axis])  # approaching
     one = Body(0 * axis, velocity[0], rng.normal(size=(n, 3)), radius, mass[0, :, 0])
     other = Body(2 * radius * axis, velocity[1], rng.normal(size=(n, 3)), radius, mass[1, :, 0])
     first, second, pairs = collide(RUBBER, one, other, partner="same", friction=0.5, radius_limit=1,

@@ -5,8 +5,8 @@
     scene = _library.struct("scene", radius1=0.005)
     _library.call(_library.core.restitute_scene_numbers, scene, numbers)
 
-Every component is loaded when it is first named: `core`, `cvode`, `table`, `table_files`, `bem`,
-`files`, `contact`, `fit`.
+A component is loaded when it is first named: `cvode`, `table`, `table_files`, `bem`, `files`,
+`contact`, `fit`.
 """
 import os
 import queue
@@ -20,7 +20,7 @@ from restitute._binding import ffi
 from restitute._places import LIBRARIES
 
 __all__ = ["array_type", "call", "ffi", "string", "struct", "text"]
-_COMPONENTS = ("core", "cvode", "table", "table_files", "bem", "files", "contact", "fit")
+_COMPONENTS = ("cvode", "table", "table_files", "bem", "files", "contact", "fit")
 
 
 def __getattr__(name):
@@ -35,9 +35,10 @@ def _load(component):
     if path is None:
         raise errors.MissingComponent(f"the component {component} is not installed with this "
                                       "package")
-    if component != "core":
-        __getattr__("core")  # first, so that the component finds it loaded
     return ffi.dlopen(os.path.join(os.path.dirname(__file__), path))
+
+
+core = _load("core")  # first, so that components find it loaded
 
 
 def available(component):
@@ -64,7 +65,8 @@ def string(value):
 
 def exception(status, message):
     """The exception for a failed call."""
-    kinds = {core.RESTITUTE_ERROR_DOMAIN: errors.DomainError, core.RESTITUTE_ERROR_FORMAT: errors.FormatError,
+    kinds = {core.RESTITUTE_ERROR_DOMAIN: errors.DomainError,
+             core.RESTITUTE_ERROR_FORMAT: errors.FormatError,
              core.RESTITUTE_ERROR_FILE: errors.FileError}
     if status == core.RESTITUTE_ERROR_MEMORY:
         return MemoryError(message)
@@ -113,7 +115,8 @@ def array_type(name):
         names.append(member)
         offsets.append(field.offset)
         formats.append(_format(field.type))
-    return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": ffi.sizeof(kind)})
+    return np.dtype({"names": names, "formats": formats, "offsets": offsets,
+                     "itemsize": ffi.sizeof(kind)})
 
 
 def _format(kind):
@@ -122,13 +125,16 @@ def _format(kind):
         return (_format(kind.item), (kind.length,))
     if kind.kind == "pointer":
         return "u8" if ffi.sizeof(kind) == 8 else "u4"
-    letter = "f" if kind.cname in ("double", "float") else "u" if kind.cname.startswith("u") or kind.cname == "size_t" else "i"
-    return "S1" if kind.cname == "char" else f"{letter}{ffi.sizeof(kind)}"
+    if kind.cname == "char":
+        return "S1"
+    unsigned = kind.cname.startswith(("u", "size_t"))
+    letter = "f" if kind.cname in ("double", "float") else "u" if unsigned else "i"
+    return f"{letter}{ffi.sizeof(kind)}"
 
 
 def structs(name, count, component="core"):
-    """`count` structs restitute_NAME with their defaults, as a NumPy array of records, whose memory C can be given
-    by `pointer`."""
+    """`count` structs restitute_NAME with their defaults, as a NumPy array of records, whose memory
+    C can be given by `pointer`."""
     import numpy as np
 
     first = struct(name, component)
@@ -137,7 +143,8 @@ def structs(name, count, component="core"):
 
 
 def pointer(array, kind=None):
-    """The memory of a contiguous array for C; `kind` as in "restitute_scene[]", by default its dtype."""
+    """The memory of a contiguous array for C; `kind` as in "restitute_scene[]", by default that of
+    its numbers."""
     kind = kind or {"f8": "double[]", "i4": "int[]", "i8": "int64_t[]"}[array.dtype.str[1:]]
     return ffi.from_buffer(kind, array)
 
@@ -159,7 +166,7 @@ def interruptible(function, *arguments, keep=None):
 
     The call itself goes on to its end. Until then `keep` lives, what its pointers lead to.
     """
-    outcome = queue.SimpleQueue()
+    outcome: queue.SimpleQueue = queue.SimpleQueue()
 
     def run(keep):
         try:

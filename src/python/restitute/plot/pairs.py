@@ -169,7 +169,7 @@ def _words(values):
     return np.asarray(values).dtype.kind not in "fiu"
 
 
-def grid_axes(columns: dict, contours: bool = False) -> tuple:
+def grid_axes(columns: dict, contours: bool = False, ordered: bool = False) -> tuple:
     """Which columns are the axis and the curves of a figure of rows: those two that vary.
 
     Parameters
@@ -177,11 +177,12 @@ def grid_axes(columns: dict, contours: bool = False) -> tuple:
     columns : dict of str to array_like, shape (rows,)
     contours : bool
         The curves are the second axis.
+    ordered : bool
+        The last column is the axis and the first one the curves, whichever has more values.
 
     Returns
     -------
     x, curves : str, and str or None
-        The one with more values is x.
 
     Raises
     ------
@@ -193,33 +194,28 @@ def grid_axes(columns: dict, contours: bool = False) -> tuple:
     ('psi', None)
     """
     count = {name: len(np.unique(values)) for name, values in columns.items()}
-    varying = [name for name in columns if count[name] > 1]
-    varying.sort(key=lambda name: (_words(columns[name]), -count[name]))
+    varying = [name for name in reversed(columns) if ordered or count[name] > 1]
     if len(varying) not in (1, 2):
         raise ValueError(f"{'more than two' if varying else 'no'} columns vary: must be one or two")
+    if not ordered:
+        varying.sort(key=lambda name: (_words(columns[name]), -count[name]))
     x, curves = (*varying, None)[:2]
-    check_axes(columns, x, curves, contours)
-    return x, curves
-
-
-def check_axes(columns: dict, x: str, curves: str | None, contours: bool = False) -> None:
-    """Raises ValueError if these columns cannot be the axis and the curves of a figure."""
     if _words(columns[x]):
         raise ValueError(f"{x} has no numbers to be an axis: vary another one too")
-    if curves is None:
-        if contours:
-            raise ValueError("contours: needs two columns or axes that vary")
-        return
-    rows, n, m = len(columns[x]), *(len(np.unique(columns[name])) for name in (x, curves))
-    if not contours and m > _MOST_CURVES:
-        raise ValueError(f"{m} curves of {curves}: must be at most {_MOST_CURVES}; or take "
-                         "contours")
-    if contours and _words(columns[curves]):
-        raise ValueError("contours: needs two columns of numbers that vary")
-    nodes = (np.asarray(columns[name]).tolist() for name in (x, curves))
-    if contours and (min(n, m) < 3 or n * m != rows or len(set(zip(*nodes))) != rows):
-        raise ValueError(f"contours: {rows} rows are no full grid of {n} by {m}, each node once "
-                         "and both at least 3")
+    if curves is None and contours:
+        raise ValueError("contours: needs two columns or axes that vary")
+    if curves and not contours and count[curves] > _MOST_CURVES:
+        raise ValueError(f"{count[curves]} curves of {curves}: must be at most {_MOST_CURVES}; or "
+                         "take contours")
+    if contours:
+        if _words(columns[curves]):
+            raise ValueError("contours: needs two columns of numbers that vary")
+        rows, n, m = len(columns[x]), count[x], count[curves]
+        nodes = set(zip(*(np.asarray(columns[name]).tolist() for name in (x, curves))))
+        if min(n, m) < 3 or n * m != rows or len(nodes) != rows:
+            raise ValueError(f"contours: {rows} rows are no full grid of {n} by {m}, each node "
+                             "once and both at least 3")
+    return x, curves
 
 
 def grid(columns: dict, pairs: Any, *, axes: Any = None, contours: bool = False, log: Any = (),
