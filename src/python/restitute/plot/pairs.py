@@ -194,7 +194,7 @@ def grid_axes(columns: dict, contours: bool = False, ordered: bool = False) -> t
     ('psi', None)
     """
     count = {name: len(np.unique(values)) for name, values in columns.items()}
-    varying = [name for name in reversed(columns) if ordered or count[name] > 1]
+    varying = list(columns)[::-1] if ordered else [name for name in columns if count[name] > 1]
     if len(varying) not in (1, 2):
         raise ValueError(f"{'more than two' if varying else 'no'} columns vary: must be one or two")
     if not ordered:
