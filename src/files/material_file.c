@@ -128,14 +128,36 @@ static const struct model *find_model(const struct material_file *file, const ch
     return NULL;
 }
 
+/* Keys of this model beside the numbers. */
+static const char *words_of(const struct model *model)
+{
+    return model->has_terms ? "name, source, model, poisson_ratio, density_kg_m3, terms, prony_csv"
+                            : "name, source, model, poisson_ratio, density_kg_m3";
+}
+
+static int has_number(const struct model *model, int number)
+{
+    return ((model->required | model->optional) & BIT(number)) != 0;
+}
+
 static int is_allowed(const struct model *model, const char *key)
 {
-    static const char *const common[] = {"name", "source", "model", "poisson_ratio", "density_kg_m3"};
-    for (size_t i = 0; i < sizeof common / sizeof common[0]; i++)
-        if (strcmp(key, common[i]) == 0) return 1;
+    const size_t length = strlen(key);
+    for (const char *word = words_of(model); word; word = strchr(word, ',') ? strchr(word, ',') + 2 : NULL)
+        if (length == strcspn(word, ",") && strncmp(key, word, length) == 0) return 1;
     for (int i = 0; i < NUMBER_COUNT; i++)
-        if (strcmp(key, number_keys[i].key) == 0) return ((model->required | model->optional) & BIT(i)) != 0;
-    return model->has_terms && (strcmp(key, "terms") == 0 || strcmp(key, "prony_csv") == 0);
+        if (strcmp(key, number_keys[i].key) == 0) return has_number(model, i);
+    return 0;
+}
+
+/* ", modulus_pa, ..." */
+static const char *numbers_of(const struct model *model, char *text, size_t size)
+{
+    text[0] = '\0';
+    for (int i = 0; i < NUMBER_COUNT; i++)
+        if (has_number(model, i))
+            snprintf(text + strlen(text), size - strlen(text), ", %s", number_keys[i].key);
+    return text;
 }
 
 static int refuse_unknown_keys(const struct material_file *file, const struct model *model)
@@ -144,9 +166,12 @@ static int refuse_unknown_keys(const struct material_file *file, const struct mo
     json_t *value;
     json_object_foreach(file->root, key, value)
     {
+        char numbers[100];
         if (!is_allowed(model, key))
-            return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: unknown key \"%.64s\" for model %s",
-                              file->name, rst_json_line_of_key(file->text, key), key, model->name);
+            return rst_report(file->error, RESTITUTE_ERROR_FORMAT,
+                              "%s line %zu: unknown key \"%.32s\" for model %s: must be among %s%s", file->name,
+                              rst_json_line_of_key(file->text, key), key, model->name, words_of(model),
+                              numbers_of(model, numbers, sizeof numbers));
     }
     return RESTITUTE_OK;
 }
@@ -304,7 +329,9 @@ static int read_json_material(const char *path, restitute_material **material, r
     struct material_file file = {path, rst_file_name_for_message(path), text.bytes, NULL, 0, error};
     file.fingerprint = rst_file_text_fingerprint(&text, FILE_FINGERPRINT_START);
     errno = 0; /* if memory runs out, Jansson reports nothing, or a syntax error */
-    file.root = json_loadb(text.bytes, text.length, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &reason);
+    const size_t mark = strncmp(text.bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; /* of byte order, by Windows */
+    file.root =
+        json_loadb(text.bytes + mark, text.length - mark, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &reason);
     if (file.root)
         status = material_from_root(&file, material, info);
     else if (errno == ENOMEM || reason.text[0] == '\0')

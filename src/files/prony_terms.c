@@ -84,6 +84,10 @@ static int find_columns(const struct rst_csv *csv, const char *file, size_t colu
     for (size_t i = 0; i < rst_csv_columns(csv); i++) {
         const char *name = rst_csv_name(csv, i);
         const int which = strcmp(name, names[0]) == 0 ? 0 : strcmp(name, names[1]) == 0 ? 1 : -1;
+        if (strpbrk(name, ";\t"))
+            return rst_report(error, RESTITUTE_ERROR_FORMAT,
+                              "%s: the column names are separated by %s: must be by commas, tau_s,G_Pa", file,
+                              strchr(name, ';') ? "semicolons" : "tabs");
         if (which < 0)
             return rst_report(error, RESTITUTE_ERROR_FORMAT,
                               "%s: unknown column %.64s; a Prony table has tau_s and G_Pa", file, name);

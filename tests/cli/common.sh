@@ -71,6 +71,11 @@ have() {
     command -v "$1" >/dev/null || { echo "skipped: no $1 here"; return 1; }
 }
 
+# have_module MODULE: the Python of the command has it.
+have_module() {
+    "$(sed -n '1s/^#! *//p' "$RESTITUTE")" -c "import $1" 2>/dev/null || { echo "skipped: no Python module $1 here"; return 1; }
+}
+
 # have_h5py: likewise; `python` has it. Debian's belongs to /usr/bin/python3, which another Python
 # may hide.
 have_h5py() {

@@ -42,7 +42,7 @@ same history --method cvode $impact --samples 5 --events events.h5 --output hist
 same history --method bem --elements 16 --tolerance 0.1 $impact --samples 5 --fields fields.h5 --output history.csv
 same table build $scene --speed 0.1:1 --tolerance 3e-2 --output table.h5
 same fit --input ../drops.csv --radius 0.01 --density 7800 --output fit.json
-if have gnuplot; then
+if have_module matplotlib; then
     same sweep fig4 --output .
     same pair --grid psi=0:1:3 --gamma 1 --delta1 1 --output grid.csv --figure grid.svg
 fi

@@ -62,7 +62,7 @@ expect 0 history $numbers --events capitals.CSV --output h.csv
 has capitals.CSV gross-slip-end
 
 if ! "$RESTITUTE" history $numbers --events e.h5 --output h.csv 2>err; then
-    has err 'HDF5 is not in this build'
+    has err 'needs h5py'
     absent e.h5
 elif have_h5py; then
     events() { # FILE: what happens in it, and the unit of the time

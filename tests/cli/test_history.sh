@@ -29,7 +29,7 @@ tangential_force_mu_F0,normal_velocity_v0,tangential_velocity_V0" ] || fail "the
 near "$(value h.csv tangential_velocity_V0 1)" 2 1e-12 # psi
 has h.csv.meta.json '"time_T": "T"' '"version"'
 
-if have gnuplot; then
+if have_module matplotlib; then
     expect 0 history $scene --velocity 1 --angle 30 --output h.csv --figure h.svg
     has h.svg '<svg' '</svg>' Forces Velocities
 fi

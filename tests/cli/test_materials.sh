@@ -35,7 +35,7 @@ material '{"name": "x",' '"poisson_ratio": 0.6,' '"model": "elastic", "modulus_p
 material "{$head," '"model": "jelly"}' && bad 'line 2: model = "jelly": must be elastic'
 material "{$head, \"model\": \"elastic\"}" && bad 'no key "modulus_pa"'
 material "{$head, \"model\": \"elastic\", \"modulus_pa\": \"soft\"}" && bad '"modulus_pa" must be a number'
-material "{$head, \"model\": \"elastic\", \"modulus_pa\": 1," '"colour": 3}' && bad 'line 2: unknown key "colour"'
+material "{$head, \"model\": \"elastic\", \"modulus_pa\": 1," '"colour": 3}' && bad 'line 2: unknown key "colour" for model elastic: must be among name, source, model, poisson_ratio, density_kg_m3, modulus_pa'
 material "{$head, \"model\": \"elastic\", \"modulus_pa\": 1, \"viscosity_pa_s\": 1}" && bad 'unknown key "viscosity_pa_s" for model elastic'
 material "{$head, \"name\": \"y\", \"model\": \"elastic\", \"modulus_pa\": 1}" && bad 'line 1'
 material '{"name": "x"' '"model": "elastic"}' && bad 'm.json line 2 column'
@@ -60,6 +60,8 @@ csv '# a comment\ntau_s,G_Pa\n1,-2\n' 'p.csv line 3: G_Pa = -2: must be finite a
 csv 'tau_s,G_Pa\nnan,2\n' 'p.csv line 2: tau_s = "nan"'
 csv 'tau_s,E_Pa\n1,2\n' 'unknown column E_Pa'
 csv 'tau_s\n1\n' 'no column G_Pa'
+csv 'tau_s;G_Pa\n1;2\n' 'separated by semicolons: must be by commas'
+csv 'tau_s\tG_Pa\n1\t2\n' 'separated by tabs: must be by commas'
 csv 'tau_s,tau_s\n1,2\n' 'appears twice'
 csv 'tau_s,G_Pa\n1,"2\n' 'never closed'
 csv 'tau_s,G_Pa\n1,2\000\n' 'NUL'
@@ -67,3 +69,12 @@ csv 'tau_s,G_Pa\n1,2\000\n' 'NUL'
 # Line ends and comments as other programs write them.
 printf '\357\273\277# x\r\ntau_s,G_Pa\r\n1e-3, 1e6\r\n' >p.csv
 expect 0 pair --material p.csv $rest
+printf '\357\273\277{"name": "x", "poisson_ratio": 0.5, "model": "elastic",\r\n"modulus_pa": 1e6}' >m.json && good
+
+# By name, listed and shown; what is no name is refused with the names.
+expect 0 materials
+has out polyisobutylene steel 'Soda-lime silicate glass'
+expect 0 materials show polyisobutylene
+has out '920 kg/m^3' tau_s,G_Pa
+expect 0 pair --material steel $rest --format csv
+refused 'did you mean steel?' pair --material steal $rest

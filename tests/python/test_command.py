@@ -5,6 +5,7 @@ import csv
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 
@@ -186,6 +187,18 @@ def test_statuses_of_interruption_of_a_broken_pipe_and_without_memory(
         raise error
     monkeypatch.setattr("restitute.command._run", stop)
     assert run("pair")[0] == expected
+
+
+def test_a_signal_ends_a_long_impact_at_once():
+    # Euler at 1e-8 takes minutes.
+    words = ["pair", "--psi", "0.01", "--tolerance", "1e-8", "--max-work", "inf", "--time-limit",
+             "inf"]
+    env = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    process = subprocess.Popen([sys.executable, "-m", "restitute.command", *words], env=env)
+    with pytest.raises(subprocess.TimeoutExpired):
+        process.wait(1.5)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(20) in (-signal.SIGINT, 130)
 
 
 def test_materials_are_listed_and_shown(run):

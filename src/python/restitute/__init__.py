@@ -13,8 +13,8 @@ SI units, arrays in and out. Names are loaded when they are first used.
 from importlib import import_module
 
 _HOME = {
-    "errors": ("Error", "DomainError", "FileError", "FormatError", "SolverError", "ToleranceWarning",
-               "ModelLimitWarning"),
+    "errors": ("Error", "DomainError", "FileError", "FormatError", "SolverError",
+               "MissingComponent", "ToleranceWarning", "ModelLimitWarning"),
     "materials": ("Material", "material", "material_names", "shear_modulus", "solids"),
     "scenes": ("Impacts", "describe"),
     "solving": ("methods",),

@@ -5,11 +5,12 @@
     scene = _library.struct("scene", radius1=0.005)
     _library.call(_library.core.restitute_scene_numbers, scene, numbers)
 
-Every component is loaded when it is first named: `core`, `cvode`, `table`, `table_files`, `bem`,
-`files`, `contact`, `fit`.
+A component is loaded when it is first named: `cvode`, `table`, `table_files`, `bem`, `files`,
+`contact`, `fit`.
 """
 import os
 import queue
+import re
 import sys
 import threading
 import warnings
@@ -19,7 +20,7 @@ from restitute._binding import ffi
 from restitute._places import LIBRARIES
 
 __all__ = ["array_type", "call", "ffi", "string", "struct", "text"]
-_COMPONENTS = ("core", "cvode", "table", "table_files", "bem", "files", "contact", "fit")
+_COMPONENTS = ("cvode", "table", "table_files", "bem", "files", "contact", "fit")
 
 
 def __getattr__(name):
@@ -32,10 +33,12 @@ def __getattr__(name):
 def _load(component):
     path = LIBRARIES.get(component)
     if path is None:
-        raise errors.MissingComponent(f"the component {component} is not installed with this package")
-    if component != "core":
-        __getattr__("core")  # first, so that the component finds it loaded
+        raise errors.MissingComponent(f"the component {component} is not installed with this "
+                                      "package")
     return ffi.dlopen(os.path.join(os.path.dirname(__file__), path))
+
+
+core = _load("core")  # first, so that components find it loaded
 
 
 def available(component):
@@ -48,6 +51,13 @@ def text(chars):
     return ffi.string(chars).decode("utf-8", "replace")
 
 
+def message_of(error):
+    """The words of a restitute_error, with numbers as short as they can be: 0.6 for
+    0.59999999999999998."""
+    long_number = r"(?<=[ \[(-])\d+\.\d{14,}(e[-+]\d+)?(?=[]:,;) ]|$)"
+    return re.sub(long_number, lambda match: repr(float(match[0])), text(error.message))
+
+
 def string(value):
     """A string for C, e.g. a path."""
     return ffi.new("char[]", os.fsencode(value))
@@ -55,7 +65,8 @@ def string(value):
 
 def exception(status, message):
     """The exception for a failed call."""
-    kinds = {core.RESTITUTE_ERROR_DOMAIN: errors.DomainError, core.RESTITUTE_ERROR_FORMAT: errors.FormatError,
+    kinds = {core.RESTITUTE_ERROR_DOMAIN: errors.DomainError,
+             core.RESTITUTE_ERROR_FORMAT: errors.FormatError,
              core.RESTITUTE_ERROR_FILE: errors.FileError}
     if status == core.RESTITUTE_ERROR_MEMORY:
         return MemoryError(message)
@@ -78,7 +89,7 @@ def call(function, *arguments):
     """
     error = ffi.new("restitute_error *")
     status = function(*arguments, error)
-    message = text(error.message)
+    message = message_of(error)
     if status < 0:
         raise exception(status, message or text(core.restitute_status_text(status)))
     return status, message
@@ -104,7 +115,8 @@ def array_type(name):
         names.append(member)
         offsets.append(field.offset)
         formats.append(_format(field.type))
-    return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": ffi.sizeof(kind)})
+    return np.dtype({"names": names, "formats": formats, "offsets": offsets,
+                     "itemsize": ffi.sizeof(kind)})
 
 
 def _format(kind):
@@ -113,13 +125,16 @@ def _format(kind):
         return (_format(kind.item), (kind.length,))
     if kind.kind == "pointer":
         return "u8" if ffi.sizeof(kind) == 8 else "u4"
-    letter = "f" if kind.cname in ("double", "float") else "u" if kind.cname.startswith("u") or kind.cname == "size_t" else "i"
-    return "S1" if kind.cname == "char" else f"{letter}{ffi.sizeof(kind)}"
+    if kind.cname == "char":
+        return "S1"
+    unsigned = kind.cname.startswith(("u", "size_t"))
+    letter = "f" if kind.cname in ("double", "float") else "u" if unsigned else "i"
+    return f"{letter}{ffi.sizeof(kind)}"
 
 
 def structs(name, count, component="core"):
-    """`count` structs restitute_NAME with their defaults, as a NumPy array of records, whose memory C can be given
-    by `pointer`."""
+    """`count` structs restitute_NAME with their defaults, as a NumPy array of records, whose memory
+    C can be given by `pointer`."""
     import numpy as np
 
     first = struct(name, component)
@@ -128,7 +143,8 @@ def structs(name, count, component="core"):
 
 
 def pointer(array, kind=None):
-    """The memory of a contiguous array for C; `kind` as in "restitute_scene[]", by default its dtype."""
+    """The memory of a contiguous array for C; `kind` as in "restitute_scene[]", by default that of
+    its numbers."""
     kind = kind or {"f8": "double[]", "i4": "int[]", "i8": "int64_t[]"}[array.dtype.str[1:]]
     return ffi.from_buffer(kind, array)
 
@@ -150,7 +166,7 @@ def interruptible(function, *arguments, keep=None):
 
     The call itself goes on to its end. Until then `keep` lives, what its pointers lead to.
     """
-    outcome = queue.SimpleQueue()
+    outcome: queue.SimpleQueue = queue.SimpleQueue()
 
     def run(keep):
         try:

@@ -28,10 +28,11 @@ class Body(NamedTuple):
     normal: Any = (0.0, 0.0, 0.0)  #: of a plane, out of it
 
 
-def collide(material: Any, first: Body, second: Body, *, partner: Any = "rigid", friction: Any = 0.0,
-            touch_gap: Any = 1e-6, wave_density: Any = 0.0, method: str = "euler", on_error: str = "raise",
+def collide(material: Any, first: Body, second: Body, *, partner: Any = "rigid",
+            friction: Any = 0.0, touch_gap: Any = 1e-6, wave_density: Any = 0.0,
+            method: str = "euler", on_error: str = "raise",
             **settings: Any) -> tuple[Body, Body, Pairs]:
-    """What two bodies, or many pairs of them, do when they touch: each pair by itself, in one thread.
+    """What two bodies that touch, or many pairs of them, do: pair by pair, in one thread.
 
     Parameters
     ----------
@@ -58,9 +59,10 @@ def collide(material: Any, first: Body, second: Body, *, partner: Any = "rigid",
     Examples
     --------
     >>> from restitute import Material
-    >>> ball = Body(position=(0, 0, 0.01), velocity=[(0.1, 0, -0.2), (0, 0, -0.1)], radius=0.01, mass=4e-3)
-    >>> after, floor, pairs = collide(Material.standard_solid(1e6, 2e6, 50.0), ball, Body(normal=(0, 0, 1)),
-    ...                               friction=0.3, radius_limit=1)
+    >>> rubber, floor = Material.standard_solid(1e6, 2e6, 50.0), Body(normal=(0, 0, 1))
+    >>> ball = Body(position=(0, 0, 0.01), velocity=[(0.1, 0, -0.2), (0, 0, -0.1)], radius=0.01,
+    ...             mass=4e-3)
+    >>> after, _, pairs = collide(rubber, ball, floor, friction=0.3, radius_limit=1)
     >>> bool((after.velocity[:, 2] == 0.2*pairs.ez).all()), after.spin[0].round(2)
     (False, array([ 0.  , ...
     """
@@ -68,9 +70,11 @@ def collide(material: Any, first: Body, second: Body, *, partner: Any = "rigid",
     if rest:
         raise TypeError(f"'{next(iter(rest))}' is no keyword of collide")
     solids, place, deformable = combine(material, partner, 1.0)
-    columns = {"material": np.array([s.address for s in solids], np.uint64)[place], "deformable": deformable,
-               "friction": friction, "touch_gap": touch_gap, "wave_density": wave_density}
-    bodies = [{name: np.asarray(value, float) for name, value in body._asdict().items()} for body in (first, second)]
+    columns = {"material": np.array([s.address for s in solids], np.uint64)[place],
+               "deformable": deformable, "friction": friction, "touch_gap": touch_gap,
+               "wave_density": wave_density}
+    bodies = [{name: np.asarray(value, float) for name, value in body._asdict().items()}
+              for body in (first, second)]
     sizes = {f"{word}.{name}": value[..., 0] if name in _VECTORS else value
              for word, body in zip(("first", "second"), bodies) for name, value in body.items()}
     shape = broadcast({**columns, **sizes})
@@ -80,18 +84,19 @@ def collide(material: Any, first: Body, second: Body, *, partner: Any = "rigid",
         for name, value in values.items():
             record.reshape(shape)[name] = value
     asked, solved = {"method": method, **chosen}, Solved.empty(count)
-    error = ffi.new("restitute_error *")
+    error, strike = ffi.new("restitute_error *"), _library.core.restitute_collide
     kinds = ("restitute_collision[]", "restitute_body[]", "restitute_body[]", "restitute_result[]")
     pointers = [_library.pointer(r, kind) for r, kind in zip((*records, solved.results), kinds)]
     with solver(options(**asked)) as pointer:
         for i in range(count):
-            solved.status[i] = _library.core.restitute_collide(pointer, *(p + i for p in pointers), error)
+            solved.status[i] = strike(pointer, *(p + i for p in pointers), error)
             if error.message[0] != b"\0":
-                solved.messages[i] = _library.text(error.message)
+                solved.messages[i] = _library.message_of(error)
     pairs = report(None, shape, solved, asked, on_error)
     for record in records[1:]:
         for name in ("velocity", "spin"):
             record[name][solved.status < 0] = np.nan
-    after = [body._replace(velocity=record["velocity"].reshape(*shape, 3), spin=record["spin"].reshape(*shape, 3))
-             for body, record in zip((first, second), records[1:])]
-    return after[0], after[1], pairs
+    first, second = (body._replace(velocity=record["velocity"].reshape(*shape, 3),
+                                   spin=record["spin"].reshape(*shape, 3))
+                     for body, record in zip((first, second), records[1:]))
+    return first, second, pairs

@@ -6,15 +6,17 @@ The order of results and their bits are those of one thread.
 from __future__ import annotations
 
 import queue
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import BrokenExecutor, Future, ProcessPoolExecutor
-from typing import Any, Callable, Iterable, Iterator
+from typing import Any
 
 __all__ = ["map_chunks"]
 
 
-def map_chunks(function: Callable[[Any], Any], chunks: Iterable[Any], executor: Any = None, *, retries: int = 3,
+def map_chunks(function: Callable[[Any], Any], chunks: Iterable[Any], executor: Any = None, *,
+               retries: int = 3,
                progress: Callable[[int, int], Any] | None = None) -> Iterator[Any]:
-    """Results of function(chunk), in the order of the chunks, each as soon as those before it are there.
+    """Results of function(chunk) in the order of chunks, each as soon as those before it are there.
 
     Parameters
     ----------
@@ -23,7 +25,7 @@ def map_chunks(function: Callable[[Any], Any], chunks: Iterable[Any], executor: 
     executor : concurrent.futures.Executor or distributed.Client, optional
         By default the calling thread.
     retries : int
-        How often a chunk is sent again whose worker died. An exception that `function` raises is final.
+        How often a chunk is sent again whose worker died. An exception of `function` is final.
     progress : callable
         Called with the number of chunks done and of all, in the calling thread.
 
@@ -56,8 +58,9 @@ class _Run:
 
     def __init__(self, function, items, executor, retries):
         self.function, self.items, self.retries = function, items, retries
-        self.executor = executor.get_executor(pure=False) if hasattr(executor, "get_executor") else executor
-        self.own = None  # a pool in place of the caller's that broke
+        of_dask = getattr(executor, "get_executor", None)
+        self.executor = of_dask(pure=False) if of_dask else executor
+        self.own: ProcessPoolExecutor | None = None  # a pool in place of the caller's that broke
         self.tries = [0] * len(items)
         self.pending: dict[Future, tuple[int, Any]] = {}
         self.done: queue.SimpleQueue = queue.SimpleQueue()
@@ -103,11 +106,11 @@ class _Run:
 
     def renew(self, error):
         """A process pool that lost a worker is lost as a whole: take another one like it."""
-        broken = self.executor
-        if not isinstance(broken, ProcessPoolExecutor):
+        if not isinstance(self.executor, ProcessPoolExecutor):
             raise error
         if self.own:
             self.own.shutdown(wait=False)
+        broken: Any = self.executor
         self.executor = self.own = ProcessPoolExecutor(
             broken._max_workers, mp_context=broken._mp_context, initializer=broken._initializer,
             initargs=broken._initargs)

@@ -2,6 +2,7 @@
 """The time history of one impact, its events, and its fields of pressure and traction."""
 from __future__ import annotations
 
+from contextlib import contextmanager, nullcontext
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -98,7 +99,8 @@ def history(material: Any = None, *, samples: int = 500, method: str | None = No
         raise errors.DomainError(f"history: has the shape {impacts.shape}, must be one impact")
     method = method or ("cvode" if events else "euler")
     if events and not method.startswith("cvode"):
-        raise errors.DomainError(f"events: the method {method} logs none; must be cvode, cvode-bdf or cvode-adams")
+        raise errors.DomainError(f"events: the method {method} logs none; must be cvode, "
+                                 "cvode-bdf or cvode-adams")
     if fields and method != "bem":
         raise errors.DomainError(f"fields = {fields}: need the method bem, not {method}")
     if not 2 <= samples <= 1e9:
@@ -110,54 +112,50 @@ def history(material: Any = None, *, samples: int = 500, method: str | None = No
     for name, row in zip(_MEMBERS, block):
         setattr(wanted, name, _library.pointer(row))
     solved = Solved.empty(1, energies=True)
-    with _Recorder(value, events, fields) as recorder, solver(value) as pointer:
+    keeper = (_recorder("cvode", value, value.method) if events else
+              _recorder("bem", value, fields) if fields else nullcontext())
+    with keeper as recorder, solver(value) as pointer:
         solve_singly(impacts, pointer, solved, 0, 1, wanted)
         result = report(impacts, (), solved, asked)
-        return History(*block[:, :wanted.count], result, recorder.events(), recorder.fields())
+        samples_of = dict(zip(_MEMBERS, block[:, :wanted.count]))
+        return History(**samples_of, result=result, events=_events_of(recorder) if events else None,
+                       fields=_fields_of(recorder) if fields else None)
 
 
-class _Recorder:
-    """What keeps events or fields, in place of the method of `settings`; a with statement."""
+@contextmanager
+def _recorder(component, settings, argument):
+    """What keeps events or fields, in place of the method of the options."""
+    library, name = getattr(_library, component), f"restitute_{component}_recorder"
+    made = ffi.new(f"{name} **")
+    _library.call(getattr(library, f"{name}_create"), argument, made)
+    try:
+        settings.method = getattr(library, f"{name}_method")(made[0])
+        yield made[0]
+    finally:
+        getattr(library, f"{name}_destroy")(made[0])
 
-    def __init__(self, settings, events, fields):
-        self.name = "cvode" if events else "bem" if fields else None
-        if self.name is None:
-            return
-        self.call = {part: getattr(getattr(_library, self.name), f"restitute_{self.name}_recorder_{part}")
-                     for part in ("create", "method", "destroy", *(("events", "work") if events else ("count", "get")))}
-        pointer = ffi.new(f"restitute_{self.name}_recorder **")
-        _library.call(self.call["create"], settings.method if events else fields, pointer)
-        self.pointer = pointer[0]
-        settings.method = self.call["method"](self.pointer)
 
-    def __enter__(self):
-        return self
+def _events_of(recorder):
+    library = _library.cvode
+    log, work = _library.struct("cvode_events", "cvode"), _library.structs("cvode_work", 1, "cvode")
+    _library.call(library.restitute_cvode_recorder_events, recorder, log)  # their number
+    records = np.zeros(log.count, _library.array_type("cvode_event"))
+    log.capacity, log.event = log.count, _library.pointer(records, "restitute_cvode_event[]")
+    _library.call(library.restitute_cvode_recorder_events, recorder, log)
+    _library.call(library.restitute_cvode_recorder_work, recorder,
+                  _library.pointer(work, "restitute_cvode_work[]"))
+    return Events(records, work)
 
-    def __exit__(self, *_):
-        if self.name:
-            self.call["destroy"](self.pointer)
 
-    def events(self):
-        if self.name != "cvode":
-            return None
-        log, work = _library.struct("cvode_events", "cvode"), _library.structs("cvode_work", 1, "cvode")
-        _library.call(self.call["events"], self.pointer, log)
-        records = np.zeros(log.count, _library.array_type("cvode_event"))
-        log.capacity, log.event = log.count, _library.pointer(records, "restitute_cvode_event[]")
-        _library.call(self.call["events"], self.pointer, log)
-        _library.call(self.call["work"], self.pointer, _library.pointer(work, "restitute_cvode_work[]"))
-        return Events(records, work)
-
-    def fields(self):
-        if self.name != "bem":
-            return None
-        shot, shots = _library.struct("bem_snapshot", "bem"), []
-        for index in range(self.call["count"](self.pointer)):
-            _library.call(self.call["get"], self.pointer, index, shot)
-            grids = [np.frombuffer(ffi.buffer(grid, 8 * shot.cells**2)).reshape(shot.cells, -1).copy()
-                     for grid in (shot.pressure, shot.traction, shot.stick)]
-            shots.append((shot.time, shot.spacing, *grids))
-        if not shots:
-            raise errors.DomainError("fields: the impact has too few steps")
-        time, spacing, *grids = zip(*shots)
-        return Fields(np.array(time), spacing[0], *(np.array(grid) for grid in grids))
+def _fields_of(recorder):
+    shot, shots = _library.struct("bem_snapshot", "bem"), []
+    for index in range(_library.bem.restitute_bem_recorder_count(recorder)):
+        _library.call(_library.bem.restitute_bem_recorder_get, recorder, index, shot)
+        grids = (np.frombuffer(ffi.buffer(grid, 8 * shot.cells**2)).reshape(shot.cells, -1)
+                 for grid in (shot.pressure, shot.traction, shot.stick))
+        shots.append((shot.time, shot.spacing, *(grid.copy() for grid in grids)))
+    if not shots:
+        raise errors.DomainError("fields: the impact has too few steps")
+    time, spacing, pressure, traction, stick = zip(*shots)
+    return Fields(np.array(time), spacing[0], np.array(pressure), np.array(traction),
+                  np.array(stick))

@@ -2,7 +2,8 @@
 """Restitution pairs of one impact or of arrays of them."""
 from __future__ import annotations
 
-from typing import Any, Callable
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -16,7 +17,8 @@ __all__ = ["LIMITS", "Pairs", "pair", "solve"]
 #: Limits of the model: flag, name, its option, what it bounds, in words.
 LIMITS = (
     (1, "FAST", "speed_limit", "speed_ratio", "speed above {:g} of the shear wave speed"),
-    (2, "LARGE_CONTACT", "radius_limit", "radius_ratio", "contact radius above {:g} of the sphere's"),
+    (2, "LARGE_CONTACT", "radius_limit", "radius_ratio",
+     "contact radius above {:g} of the sphere's"),
     (4, "LONG_SLIDE", "displacement_limit", "displacement_ratio",
      "sliding distance above {:g} of the contact radius"),
     (8, "COUPLED", "dundurs_limit", "dundurs_beta", "Dundurs' |beta| above {:g}"),
@@ -53,7 +55,8 @@ class Pairs(Columns):
         super().__init__(solved.results.reshape(shape))
         self.impacts, self._asked, self._messages = impacts, asked, dict(solved.messages)
         self.status = solved.status.reshape(shape)[()]
-        self.ledger = solved.ledgers if solved.ledgers is None else Columns(solved.ledgers.reshape(shape))
+        ledgers = solved.ledgers
+        self.ledger = None if ledgers is None else Columns(ledgers.reshape(shape))
         self.method = asked["method"]
 
     @property
@@ -61,14 +64,14 @@ class Pairs(Columns):
         """restitute_options in use: `settings.tolerance`, `settings.radius_limit`, ..."""
         return options(**self._asked)
 
-    def message(self, *index: int) -> str:
+    def message(self, *index: Any) -> str:
         """Why the impact at this index failed, or the library's remarks on it; empty if there are
         none."""
         flat = int(np.ravel_multi_index(index, self.shape)) if index else 0
         strained = np.ravel(self.status)[flat] != 0 or np.ravel(self.flags)[flat] != 0
         if strained and flat not in self._messages and self.impacts is not None:
             again = solve_impacts(self.impacts[flat:flat + 1], {**self._asked, "threads": 1})
-            self._messages.update({flat: text for text in again.messages.values()})
+            self._messages[flat] = again.messages.get(0, "")
         return self._messages.get(flat, "")
 
     def words(self) -> np.ndarray:
@@ -91,7 +94,8 @@ class Pairs(Columns):
         ...     balls = pair(Material.elastic(1e6), radius=0.01, density=1000, speed=[0.1, 2],
         ...                  speed_limit=1, radius_limit=0.2)
         >>> balls.limits()
-        [('LARGE_CONTACT', 1, "1 of 2 impacts: contact radius above 0.2 of the sphere's, up to 0.33")]
+        [('LARGE_CONTACT', 1,
+          "1 of 2 impacts: contact radius above 0.2 of the sphere's, up to 0.33")]
         """
         passed, flags = [], np.ravel(self.flags)
         for bit, name, option, member, words in LIMITS:
@@ -105,7 +109,9 @@ class Pairs(Columns):
 
 def _of(hit, shape, text, most):
     """How many of how many; of one impact that is not said."""
-    return f"{np.sum(hit)} of {hit.size} impacts: {text}, up to {most}" if shape else f"{text}: {most}"
+    if not shape:
+        return f"{text}: {most}"
+    return f"{np.sum(hit)} of {hit.size} impacts: {text}, up to {most}"
 
 
 def _line(status, flags):
@@ -151,10 +157,9 @@ def report(impacts: Impacts | None, shape: tuple, solved: Solved, asked: dict,
         first = int(np.argmax(failed))
         text = pairs.message(*np.unravel_index(first, shape))
         _fail(shape, first, solved.status[first], text)
-    for records in (solved.results, solved.ledgers):
-        for name in records.dtype.names if records is not None and np.any(failed) else ():
-            if records.dtype[name].kind == "f":
-                records[name][failed] = np.nan
+    for records in (part for part in (solved.results, solved.ledgers) if part is not None):
+        for name in (name for name in records.dtype.names if records.dtype[name].kind == "f"):
+            records[name][failed] = np.nan
     missed = solved.status == core.RESTITUTE_TOLERANCE_NOT_REACHED
     if np.any(missed):
         worst = max(solved.results[name][missed].max() for name in ("error_ez", "error_ex"))
@@ -235,7 +240,7 @@ def pair(material: Any = None, *, method: str = "euler", energies: bool = False,
     DomainError, SolverError
         The text names the value, its range and the impact, whose place is `index`.
     KeyboardInterrupt
-        Ctrl-C ends a long batch within about half a second, or after the impact that is solved.
+        Ctrl-C ends a long batch within about a second, or after the impact that is solved.
 
     Warns
     -----

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Linear-viscoelastic solids: from constants, from files, by name, of two unlike bodies."""
+"""Linear-viscoelastic solids: of constants, from files, by name, of two unlike bodies."""
 from __future__ import annotations
 
 import difflib
@@ -15,13 +15,14 @@ from restitute._library import call, ffi
 __all__ = ["Material", "Series", "material", "material_names", "shear_modulus", "solids"]
 _FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "materials")
 
-#: Shifts of relaxation times with temperature, log10 a_T = -c1 (T - T0)/(c2 + T - T0): T0 (degrees
-#: Celsius), c1, c2 (K). Polyisobutylene: Ferry, Viscoelastic Properties of Polymers, table 11-II, for 298 K.
+#: Shift with temperature, log10 a_T = -c1 (T - T0)/(c2 + T - T0): T0 (degrees Celsius), c1, c2 (K).
+#: Polyisobutylene: Ferry, Viscoelastic Properties of Polymers, table 11-II, for 298 K.
 _WLF = {"polyisobutylene": (25.0, 8.61, 200.4)}
 
 
 class Series(NamedTuple):
-    """G(t) = equilibrium_modulus + sum_k modulus[k] exp(-t/relaxation_time[k]) + parallel_viscosity delta(t)."""
+    """G(t) = equilibrium_modulus + sum_k modulus_k exp(-t/relaxation_time_k)
+    + parallel_viscosity delta(t)."""
 
     relaxation_time: np.ndarray  #: s, ascending
     modulus: np.ndarray  #: Pa
@@ -34,9 +35,9 @@ class Material:
 
         G(t) = G_inf + sum_k G_k exp(-t/tau_k) + eta_inf delta(t).
 
-    Immutable; threads may share it. Made by one of its constructors, which take shear moduli (see
-    `shear_modulus` for Young's modulus) and, as further keywords, `name`, `source` and `density`.
-    Two materials are equal if their series, Poisson's ratios and densities are.
+    Immutable; threads may share it. The constructors take shear moduli (see `shear_modulus`) and,
+    as further keywords, `name`, `source` and `density`. Materials are equal if their series,
+    Poisson's ratios and densities are.
 
     Attributes
     ----------
@@ -50,8 +51,8 @@ class Material:
     Raises
     ------
     DomainError
-        A modulus outside of 1e-30 to 1e30 Pa, a relaxation time outside of 1e-30 to 1e30 s, Poisson's
-        ratio outside of 0 to 0.5.
+        A modulus outside of 1e-30 to 1e30 Pa, a relaxation time outside of 1e-30 to 1e30 s,
+        Poisson's ratio outside of 0 to 0.5.
 
     Examples
     --------
@@ -60,63 +61,62 @@ class Material:
     array([4000000., 1000000.])
     """
 
-    def __init__(self, handle: Any, name: str = "", source: str = "", model: str = "", density: float = math.nan,
-                 parts: tuple[Material, Material] | None = None):
+    def __init__(self, handle: Any, name: str = "", source: str = "", model: str = "",
+                 density: float = math.nan, parts: tuple[Material, Material] | None = None):
         self._handle = ffi.gc(handle, _library.core.restitute_material_destroy)
         self.name, self.source, self.model, self.density = name, source, model, density
         self.parts = parts
         self.address = int(ffi.cast("uintptr_t", handle))
 
     @classmethod
-    def _made(cls, function, *arguments, **about) -> Material:
+    def _made(cls, kind, /, *constants, **about) -> Material:
         handle = ffi.new("restitute_material **")
-        call(function, *arguments, handle)
-        return cls(handle[0], **about)
+        call(getattr(_library.core, f"restitute_material_{kind}"), *constants, handle)
+        return cls(handle[0], **{"model": kind, **about})
 
     @classmethod
     def elastic(cls, modulus: float, poisson_ratio: float = 0.5, **about: Any) -> Material:
         """Elastic solid of shear modulus `modulus` (Pa).
 
-        >>> Material.elastic(shear_modulus(youngs=210e9, poisson_ratio=0.3), 0.3).relaxation_modulus(1.0).round(-7)
-        80770000000.0
+        >>> Material.elastic(shear_modulus(youngs=210e9, poisson_ratio=0.3), 0.3).series.modulus
+        array([], dtype=float64)
         """
-        return cls._made(_library.core.restitute_material_elastic, modulus, poisson_ratio,
-                         **{"model": "elastic", **about})
+        return cls._made("elastic", modulus, poisson_ratio, **about)
 
     @classmethod
-    def standard_solid(cls, modulus1: float, modulus2: float, viscosity: float, poisson_ratio: float = 0.5,
-                       **about: Any) -> Material:
-        """Standard solid: spring G1 parallel to a spring G2 and a dashpot eta in series (Pa, Pa, Pa s).
+    def standard_solid(cls, modulus1: float, modulus2: float, viscosity: float,
+                       poisson_ratio: float = 0.5, **about: Any) -> Material:
+        """Spring G1 parallel to a spring G2 and a dashpot eta in series (Pa, Pa, Pa s).
 
         >>> Material.standard_solid(1e6, 2e6, 50.0).series.relaxation_time
         array([2.5e-05])
         """
-        return cls._made(_library.core.restitute_material_standard_solid, modulus1, modulus2, viscosity, poisson_ratio,
-                         **{"model": "standard_solid", **about})
+        return cls._made("standard_solid", modulus1, modulus2, viscosity, poisson_ratio, **about)
 
     @classmethod
-    def kelvin_voigt(cls, modulus1: float, viscosity: float, poisson_ratio: float = 0.5, **about: Any) -> Material:
-        """Kelvin-Voigt solid: spring G1 (Pa) parallel to a dashpot eta (Pa s).
+    def kelvin_voigt(cls, modulus1: float, viscosity: float, poisson_ratio: float = 0.5,
+                     **about: Any) -> Material:
+        """Spring G1 (Pa) parallel to a dashpot eta (Pa s).
 
         >>> Material.kelvin_voigt(1e6, 50.0).series.parallel_viscosity
         50.0
         """
-        return cls._made(_library.core.restitute_material_kelvin_voigt, modulus1, viscosity, poisson_ratio,
-                         **{"model": "kelvin_voigt", **about})
+        return cls._made("kelvin_voigt", modulus1, viscosity, poisson_ratio, **about)
 
     @classmethod
-    def maxwell(cls, modulus: float, viscosity: float, poisson_ratio: float = 0.5, **about: Any) -> Material:
-        """Maxwell body: spring G (Pa) in series with a dashpot eta (Pa s). It may never rebound.
+    def maxwell(cls, modulus: float, viscosity: float, poisson_ratio: float = 0.5,
+                **about: Any) -> Material:
+        """Spring G (Pa) in series with a dashpot eta (Pa s). It may never rebound.
 
         >>> Material.maxwell(1e6, 50.0).series.equilibrium_modulus
         0.0
         """
-        return cls._made(_library.core.restitute_material_maxwell, modulus, viscosity, poisson_ratio,
-                         **{"model": "maxwell", **about})
+        return cls._made("maxwell", modulus, viscosity, poisson_ratio, **about)
 
     @classmethod
     def prony(cls, relaxation_time: Any, modulus: Any, equilibrium_modulus: float = 0.0,
-              parallel_viscosity: float = 0.0, poisson_ratio: float = 0.5, **about: Any) -> Material:
+              parallel_viscosity: float = 0.0, poisson_ratio: float = 0.5,
+              **about: Any) -> Material:
         """Prony series; every other solid is a case of it.
 
         Parameters
@@ -131,29 +131,30 @@ class Material:
         >>> Material.prony([1e-4, 1e-2], [5e6, 1e6], 1e6).relaxation_modulus(1e-3).round(-4)
         1910000.0
         """
-        tau, g = np.broadcast_arrays(np.atleast_1d(relaxation_time), np.atleast_1d(modulus))
+        pair = np.broadcast_arrays(np.atleast_1d(relaxation_time), np.atleast_1d(modulus))
+        tau, g = (np.array(values, float) for values in pair)
         if tau.ndim != 1:
-            raise errors.DomainError(f"relaxation_time, modulus: have the shape {tau.shape}, must have one dimension")
-        tau, g = np.array(tau, float), np.array(g, float)
-        return cls._made(_library.core.restitute_material_prony, equilibrium_modulus, parallel_viscosity, len(tau),
-                         _library.pointer(tau), _library.pointer(g), poisson_ratio, **{"model": "prony", **about})
+            raise errors.DomainError(f"relaxation_time, modulus: have the shape {tau.shape}, must "
+                                     "have one dimension")
+        return cls._made("prony", equilibrium_modulus, parallel_viscosity, len(tau),
+                         _library.pointer(tau), _library.pointer(g), poisson_ratio, **about)
 
     @classmethod
     def effective(cls, material1: Material, material2: Material, **about: Any) -> Material:
-        """The solid that stands for two bodies of unlike materials: compliances add (docs/theory.md, 10).
+        """Two bodies of unlike materials as one: compliances add (docs/theory.md, 10).
 
         >>> pair = Material.effective(Material.elastic(80e9, 0.3), Material.elastic(30e9, 0.3))
         >>> round(pair.dundurs, 3)
         -0.13
         """
-        name = f"{material1.name or material1.model} on {material2.name or material2.model}"
-        return cls._made(_library.core.restitute_material_effective, material1._handle, material2._handle,
-                         parts=(material1, material2),
-                         **{"name": name, "model": "effective", "density": material1.density, **about})
+        name = " on ".join(m.name or m.model for m in (material1, material2))
+        about = {"name": name, "density": material1.density, **about}
+        return cls._made("effective", material1._handle, material2._handle,
+                         parts=(material1, material2), **about)
 
     @classmethod
     def read(cls, path: str | os.PathLike) -> Material:
-        """A material from a .json or .csv file, see include/restitute/files.h for the form.
+        """A material from a .json or .csv file of the form in include/restitute/files.h.
 
         Raises
         ------
@@ -163,7 +164,8 @@ class Material:
         info = _library.struct("material_info", "files")
         handle = ffi.new("restitute_material **")
         call(_library.files.restitute_material_read, _library.string(path), handle, info)
-        return cls(handle[0], *(_library.text(part) for part in (info.name, info.source, info.model)), info.density)
+        return cls(handle[0], _library.text(info.name), _library.text(info.source),
+                   _library.text(info.model), info.density)
 
     @property
     def poisson_ratio(self) -> float:
@@ -180,27 +182,29 @@ class Material:
         """The Prony series."""
         count = _library.core.restitute_material_terms(self._handle)
         tau, g, rest = np.empty(count), np.empty(count), ffi.new("double[2]")
-        call(_library.core.restitute_material_series, self._handle, rest, rest + 1, _library.pointer(tau),
-             _library.pointer(g))
+        call(_library.core.restitute_material_series, self._handle, rest, rest + 1,
+             _library.pointer(tau), _library.pointer(g))
         return Series(tau, g, rest[0], rest[1])
 
     def relaxation_modulus(self, time: Any) -> Any:
-        """G(t) in Pa at times t > 0 (s) after a unit shear step, an array of their shape; nan elsewhere."""
-        t, s = np.asarray(time, float), self.series
+        """G(t) in Pa at times t > 0 (s) after a unit shear step, in their shape; nan elsewhere."""
+        s, t = self.series, np.asarray(time, float)
+        t = np.where(t > 0, t, np.nan)
         with np.errstate(under="ignore"):
-            value = s.equilibrium_modulus + np.exp(-np.where(t > 0, t, np.nan)[..., None] / s.relaxation_time) @ s.modulus
-        return np.where(t > 0, value, np.nan)[()]
+            decay = np.exp(-t[..., None] / s.relaxation_time)
+        return (s.equilibrium_modulus + decay @ s.modulus + 0 * t)[()]
 
     def _sine_cosine(self, frequency: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """omega, and sine and cosine of arctan(omega tau): squares of large numbers do not overflow."""
+        """omega, and sine and cosine of arctan(omega tau): no square overflows."""
         omega = np.asarray(frequency, float)
         omega = np.where(omega >= 0, omega, np.nan)
-        x = omega[..., None] * self.series.relaxation_time
+        with np.errstate(over="ignore"):
+            x = np.minimum(omega[..., None] * self.series.relaxation_time, 1e150)
         cosine = 1 / np.hypot(1, x)
         return omega, x * cosine, cosine
 
     def storage_modulus(self, frequency: Any) -> Any:
-        """G'(omega) in Pa at angular frequencies >= 0 (rad/s), an array of their shape; nan elsewhere.
+        """G'(omega) in Pa at angular frequencies >= 0 (rad/s), in their shape; nan elsewhere.
 
         >>> Material.maxwell(1e6, 1e3).storage_modulus(1e3).round(3)
         500000.0
@@ -209,25 +213,31 @@ class Material:
         return (self.series.equilibrium_modulus + sine**2 @ self.series.modulus + 0 * omega)[()]
 
     def loss_modulus(self, frequency: Any) -> Any:
-        """G''(omega) in Pa at angular frequencies >= 0 (rad/s), an array of their shape; nan elsewhere."""
+        """G''(omega) in Pa at angular frequencies >= 0 (rad/s), in their shape; nan elsewhere."""
         omega, sine, cosine = self._sine_cosine(frequency)
-        return ((sine * cosine) @ self.series.modulus + self.series.parallel_viscosity * omega)[()]
+        viscous = self.series.parallel_viscosity * omega
+        return ((sine * cosine) @ self.series.modulus + viscous)[()]
 
     def shifted(self, time_shift: float) -> Material:
-        """The same solid with all relaxation times and viscosities times `time_shift`, the a_T of a temperature."""
+        """The same solid with all relaxation times and viscosities times `time_shift`, the a_T of
+        a temperature."""
         if time_shift == 1:
             return self
-        about = {"name": self.name, "source": self.source, "model": self.model, "density": self.density}
+        about = dict(zip(_ABOUT, self._about()))
         if self.parts:
-            return Material.effective(*(part.shifted(time_shift) for part in self.parts), **about)
+            parts = (part.shifted(time_shift) for part in self.parts)
+            return Material.effective(*parts, **about)
         s = self.series
         return Material.prony(s.relaxation_time * time_shift, s.modulus, s.equilibrium_modulus,
                               s.parallel_viscosity * time_shift, self.poisson_ratio, **about)
 
+    def _about(self):
+        return self.name, self.source, self.model, self.density
+
     def _key(self) -> tuple:
         s = self.series
-        return (s.relaxation_time.tobytes(), s.modulus.tobytes(), s.equilibrium_modulus, s.parallel_viscosity,
-                self.poisson_ratio, self.dundurs, np.float64(self.density).tobytes())
+        return (s.relaxation_time.tobytes(), s.modulus.tobytes(), *s[2:], self.poisson_ratio,
+                self.dundurs, np.float64(self.density).tobytes())
 
     def __eq__(self, other):
         return self._key() == other._key() if isinstance(other, Material) else NotImplemented
@@ -236,21 +246,25 @@ class Material:
         return hash(self._key())
 
     def __reduce__(self):
-        about = (self.name, self.source, self.model, self.density)
-        return _again, (about, self.parts or (*self.series, self.poisson_ratio))
+        return _again, (self._about(), self.parts or (*self.series, self.poisson_ratio))
 
     def __repr__(self):
         s = self.series
         stiffest = s.equilibrium_modulus + s.modulus.sum()
         about = f"{self.name!r}, " if self.name else ""
-        return (f"<restitute.Material {about}{self.model}, G(t) from {stiffest:.3g} to {s.equilibrium_modulus:.3g} Pa, "
-                f"nu = {self.poisson_ratio:.3g}>")
+        return (f"<restitute.Material {about}{self.model}, G(t) from {stiffest:.3g} to "
+                f"{s.equilibrium_modulus:.3g} Pa, nu = {self.poisson_ratio:.3g}>")
+
+
+_ABOUT = ("name", "source", "model", "density")
 
 
 def _again(about: tuple, constants: tuple) -> Material:
     """What a pickled material becomes: of the same bits."""
-    words = dict(zip(("name", "source", "model", "density"), about))
-    return Material.effective(*constants, **words) if len(constants) == 2 else Material.prony(*constants, **words)
+    words = dict(zip(_ABOUT, about))
+    if len(constants) == 2:
+        return Material.effective(*constants, **words)
+    return Material.prony(*constants, **words)
 
 
 def material_names() -> list[str]:
@@ -270,49 +284,55 @@ def material(name: str | os.PathLike, temperature: float | None = None) -> Mater
     name : str or path
         One of `material_names()`, or a .json or .csv file.
     temperature : float, optional
-        Degrees Celsius; by default the one that the constants hold for. Relaxation times are shifted by the
-        equation of Williams, Landel and Ferry, for materials whose constants are known.
+        Degrees Celsius; by default the one that the constants hold for. Relaxation times are
+        shifted by the equation of Williams, Landel and Ferry, where its constants are known.
 
     Raises
     ------
     DomainError
         The name is unknown, or there are no constants for a temperature.
+    FileError, FormatError
+        As `Material.read`.
 
     Examples
     --------
     >>> material("polyisobutylene", temperature=40).density
     920.0
     """
-    word = os.fspath(name)
+    word, names = os.fspath(name), material_names()
     if word.endswith((".json", ".csv")):
-        found, word = Material.read(word), ""
-    elif word in material_names():
+        found = Material.read(word)
+    elif word in names:
         found = Material.read(os.path.join(_FOLDER, f"{word}.json"))
     else:
-        near = difflib.get_close_matches(word, material_names(), 1)
-        raise errors.DomainError(f"material = {word!r}: {f'did you mean {near[0]}? ' if near else ''}must be a .json or "
-                                 f".csv file or one of {', '.join(material_names())}")
+        near = difflib.get_close_matches(word, names, 1)
+        hint = f"did you mean {near[0]}? " if near else ""
+        raise errors.DomainError(f"material = {word!r}: {hint}must be a .json or .csv file or one "
+                                 f"of {', '.join(names)}")
     if temperature is None:
         return found
     if word not in _WLF:
-        raise errors.DomainError(f"temperature = {temperature:g}: no shift of times with temperature is known for "
-                                 f"{os.fspath(name)}; shift it yourself by Material.shifted(a_T)")
+        raise errors.DomainError(f"temperature = {temperature:g}: no shift of times with "
+                                 f"temperature is known for {word}; take Material.shifted(a_T)")
     reference, c1, c2 = _WLF[word]
     if not reference - c2 < temperature < math.inf:
-        raise errors.DomainError(f"temperature = {temperature:g}: must be above {reference - c2:g} degrees Celsius")
-    return found.shifted(10 ** (-c1 * (temperature - reference) / (c2 + temperature - reference)))
+        raise errors.DomainError(f"temperature = {temperature:g}: must be above "
+                                 f"{reference - c2:g} degrees Celsius")
+    above = temperature - reference
+    return found.shifted(10 ** (-c1 * above / (c2 + above)))
 
 
 def shear_modulus(*, youngs: Any = None, shore_a: Any = None, poisson_ratio: Any = 0.5) -> Any:
-    """The shear modulus (Pa) from Young's modulus or from hardness: G = E/(2 (1 + nu)).
+    """The shear modulus (Pa) of Young's modulus or of a hardness: G = E/(2 (1 + nu)).
 
     Parameters
     ----------
     youngs : array_like
         E, Pa.
     shore_a : array_like, in [10, 95]
-        Instead of E: Shore A hardness S. E = 0.0981 MPa (56 + 7.62336 S)/(0.137505 (254 - 2.54 S)), A. N. Gent,
-        Rubber Chemistry and Technology 31 (1958) 896. A rough estimate, of the slow (equilibrium) modulus.
+        Instead of E: Shore A hardness S, with E = 0.0981 MPa (56 + 7.62336 S)/(0.137505 (254 -
+        2.54 S)), A. N. Gent, Rubber Chemistry and Technology 31 (1958) 896. A rough estimate of
+        the slow (equilibrium) modulus.
     poisson_ratio : array_like
 
     Examples
@@ -329,7 +349,7 @@ def shear_modulus(*, youngs: Any = None, shore_a: Any = None, poisson_ratio: Any
         if not np.all((s >= 10) & (s <= 95)):
             raise errors.DomainError(f"shore_a = {s}: must be in [10, 95]")
         youngs = 0.0981e6 * (56 + 7.62336 * s) / (0.137505 * (254 - 2.54 * s))
-    return np.float64(1) * np.asarray(youngs, float) / (2 * (1 + np.asarray(poisson_ratio, float)))
+    return (np.asarray(youngs, float) / (2 * (1 + np.asarray(poisson_ratio, float))))[()]
 
 
 def _solid(modulus1: float, modulus2: float, viscosity: float, poisson_ratio: float) -> Material:
@@ -342,29 +362,32 @@ def _solid(modulus1: float, modulus2: float, viscosity: float, poisson_ratio: fl
     return Material.standard_solid(modulus1, modulus2, viscosity, poisson_ratio)
 
 
-def solids(modulus1: Any, modulus2: Any = math.inf, viscosity: Any = 0.0, poisson_ratio: Any = 0.5) -> np.ndarray:
-    """Solids of arrays of constants: an object array of their broadcast shape, one Material a combination.
+def solids(modulus1: Any, modulus2: Any = math.inf, viscosity: Any = 0.0,
+           poisson_ratio: Any = 0.5) -> np.ndarray:
+    """Solids of arrays of constants: Materials in their broadcast shape, one a combination.
 
-    Without viscosity elastic; with modulus1 = 0 a Maxwell body; with modulus2 infinite a Kelvin-Voigt solid.
+    Without viscosity elastic; with modulus1 = 0 Maxwell bodies; with modulus2 infinite
+    Kelvin-Voigt solids.
 
     Raises
     ------
     DomainError
-        With `index`, of the first combination out of range.
+        With `index`, in flat order, of the first combination out of range.
 
     Examples
     --------
     >>> solids([1e6, 1e6, 2e6]).shape
     (3,)
     """
-    columns = np.broadcast_arrays(*(np.asarray(c, float) for c in (modulus1, modulus2, viscosity, poisson_ratio)))
+    given = (np.asarray(c, float) for c in (modulus1, modulus2, viscosity, poisson_ratio))
+    columns = np.broadcast_arrays(*given)
     rows = np.stack([c.ravel() for c in columns], axis=1)
-    distinct, first, inverse = np.unique(rows, axis=0, return_index=True, return_inverse=True)
-    made = np.empty(len(distinct), object)
-    for i, row in enumerate(distinct):
+    _, first, place = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    made = np.empty(len(first), object)
+    for k in np.argsort(first):
         try:
-            made[i] = _solid(*row)
+            made[k] = _solid(*rows[first[k]])
         except errors.DomainError as error:
-            error.index = int(first[i])
+            error.index = int(first[k])
             raise
-    return made[inverse.ravel()].reshape(columns[0].shape)
+    return made[place.ravel()].reshape(columns[0].shape)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -94,8 +95,8 @@ class Impacts:
             self.records.reshape(self.shape)[name] = column
         self.refused: dict[int, str] = {}
         for bad, text in self._checks:
-            for i in np.flatnonzero(np.broadcast_to(bad, self.shape)):
-                self.refused.setdefault(int(i), text(lambda v, i=i: np.broadcast_to(v, self.shape).flat[i]))
+            for i in np.flatnonzero(np.broadcast_to(bad, self.shape)).tolist():
+                self.refused.setdefault(i, text(partial(_at, self.shape, i)))
         del self._checks
 
     def _in_range(self, name, value, low, high, words):
@@ -155,7 +156,7 @@ class Impacts:
         return columns
 
     def _mass(self, number, body, place, deformable):
-        """Of a mass, a density, or the density of the material where the body is sure to be of it."""
+        """Of a mass, a density, or the material's density where the body is sure to be of it."""
         mass, density, radius = f"mass{body}", f"density{body}", number[f"radius{body}"]
         if mass in number and density in number:
             raise TypeError(f"{mass} and {density} are both given: one determines the other")
@@ -249,6 +250,10 @@ def broadcast(columns: dict) -> tuple:
         raise errors.DomainError(f"shapes do not broadcast: {', '.join(shapes)}") from None
 
 
+def _at(shape, index, values):
+    return np.broadcast_to(values, shape).flat[index]
+
+
 def _numbers(name, value):
     try:
         return np.asarray(value, float)
@@ -301,7 +306,8 @@ def combine(material: Any, partner: Any, time_shift: Any) -> tuple[list[Material
 
     found = np.frompyfunc(solid, 3, 2)(_objects(material), _objects(partner),
                                        _numbers("time_shift", time_shift).astype(object))
-    return (solids, *(np.asarray(part).astype(np.int64) for part in found))
+    place, deformable = (np.asarray(part).astype(np.int64) for part in found)
+    return solids, place, deformable
 
 
 def _objects(value) -> np.ndarray:
@@ -319,7 +325,8 @@ def _span(values: Any, unit: str, scale: float = 1.0) -> str:
 
 def _length(values: Any) -> str:
     most = float(np.max(values))
-    return _span(values, *((" m", 1.0) if most >= 1 else (" mm", 1e3) if most >= 1e-4 else (" um", 1e6)))
+    unit, scale = (" m", 1.0) if most >= 1 else (" mm", 1e3) if most >= 1e-4 else (" um", 1e6)
+    return _span(values, unit, scale)
 
 
 def _names(solids: list[Material]) -> str:
@@ -336,7 +343,8 @@ def describe(impacts: Any = None, **keywords: Any) -> str:
     >>> describe(material_of("steel"), partner=rubber, radius=0.005, speed=1, friction=0.3)
     'sphere of Structural steel, R = 5 mm, on a wall of rubber: 1 m/s, 0 degrees, friction 0.3'
     >>> describe(rubber, radius=[0.001, 0.005], density=1100, speed=1, angle=30)
-    'sphere, R = 1 to 5 mm, on a wall, one of them of rubber, the other rigid: 1 m/s, 30 degrees, friction 0'
+    'sphere, R = 1 to 5 mm, on a wall, one of them of rubber, the other rigid: 1 m/s, 30 degrees,
+    friction 0'
     """
     if not isinstance(impacts, Impacts):
         impacts = Impacts(impacts, **keywords)
@@ -358,5 +366,6 @@ def describe(impacts: Any = None, **keywords: Any) -> str:
     speed = np.hypot(r["normal_speed"], r["tangential_speed"])
     angle = np.degrees(np.arctan2(np.abs(r["tangential_speed"]), r["normal_speed"]))
     return (f"sphere{first}, R = {_length(r['radius1'])}, on {other}{second}{rigid}: "
-            f"{_span(speed, ' m/s')}, {_span(angle, ' degrees')}, friction {_span(r['friction'], '')}"
+            f"{_span(speed, ' m/s')}, {_span(angle, ' degrees')}, "
+            f"friction {_span(r['friction'], '')}"
             f"{', rotation blocked' if (r['rotation_blocked'] != 0).all() else ''}")

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import difflib
 import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any, Callable, Iterator, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -24,7 +25,7 @@ METHODS = {"euler": "core", "sync": "core", "cvode": "cvode", "cvode-bdf": "cvod
 OPTIONS = ("tolerance", "elements", "time_step", "threads", "max_work", "time_limit",
            "speed_limit", "radius_limit", "displacement_limit", "dundurs_limit")
 
-_PIECE = 0.2  # s between two looks for Ctrl-C. A piece costs one solver a thread, some 10 us.
+_PIECE = 0.4  # s between two looks for Ctrl-C. A piece costs one solver a thread, some 10 us.
 
 
 def methods() -> list[str]:
@@ -171,7 +172,7 @@ def _solve_piece(impacts, settings, solved, begin, end):
         pointer(solved.results[begin:end], "restitute_result[]"), pointer(solved.status[begin:end]),
         error)
     if solved.status[begin] == refused:
-        raise _library.exception(status, _library.text(error.message))
+        raise _library.exception(status, _library.message_of(error))
 
 
 def solve_singly(impacts: Impacts, made: Any, solved: Solved, begin: int, end: int,
@@ -186,4 +187,4 @@ def solve_singly(impacts: Impacts, made: Any, solved: Solved, begin: int, end: i
         ledger = ledgers + i if ledgers else ffi.NULL
         solved.status[i] = one(made, cases + (i - begin), results + i, ledger, samples, error)
         if error.message[0] != b"\0":
-            solved.messages[i] = _library.text(error.message)
+            solved.messages[i] = _library.message_of(error)

@@ -74,6 +74,9 @@ def _run(words):
         emit(_version())
     elif word in COMMANDS or word in OLD_NAMES:
         name = OLD_NAMES.get(word, word)
+        if word == "sweep" and any(other.partition("=")[0] in ("--grid", "--input")
+                                   for other in words):
+            name = "pair"
         parser, module = parser_of(name)
         try:
             arguments = parser.parse(words[1:])

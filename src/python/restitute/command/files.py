@@ -243,7 +243,7 @@ class NewFile:
     def drop(self):
         """Remove it, if it has no name yet."""
         if self.temporary:
-            _unlink(self.temporary)
+            unlink(self.temporary)
             os.close(self.descriptor)
             self.temporary = None
 
@@ -262,7 +262,8 @@ def _remove_stale(name):
         os.close(descriptor)
 
 
-def _unlink(name):
+def unlink(name):
+    """Remove a file if it is there."""
     try:
         os.unlink(name)
     except FileNotFoundError:

@@ -155,7 +155,8 @@ def _figure(path, done):
     from restitute import plot
 
     impacts = done.result.impacts
-    axes = plot.sheet(3, "One impact", note=impacts.describe(),
+    beyond = "".join(f"; beyond a limit of the model: {text}" for *_, text in done.result.limits())
+    axes = plot.sheet(3, "One impact", note=impacts.describe() + beyond,
                       origin=f"restitute {restitute.version()}, {done.result.method}")
     plot.history(done, dimensionless=impacts.kind == "impact", ax=axes)
     image = io.BytesIO()

@@ -12,7 +12,7 @@ import os
 import re
 
 _DECIMAL = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
-_NUMBER = re.compile(_DECIMAL, re.A)
+NUMBER = re.compile(_DECIMAL, re.A)
 _INFINITE = re.compile(r"[+-]?inf", re.I)
 _UNIT = re.compile(rf"({_DECIMAL}) ?((?:[kMGcmunµ]?(?:m|s|g|N|Pa|rad|Hz)|deg|°|%|rpm|K|°?C)"
                    r"(?:\^?-?[1-3])?(?:[/*·].*)?)", re.A)
@@ -87,7 +87,7 @@ def number(text):
     if _INFINITE.fullmatch(text):
         return float(text)
     above, slash, below = text.partition("/")
-    if not _NUMBER.fullmatch(above) or slash and not _NUMBER.fullmatch(below):
+    if not NUMBER.fullmatch(above) or slash and not NUMBER.fullmatch(below):
         raise ValueError(f"is not a number{_misreading(text)}")
     if slash and float(below) == 0:
         raise ValueError("is not a number (a division by zero)")

@@ -52,6 +52,8 @@ spin spin1 | rad/s | (-inf, inf) | | spin of the sphere, rad/s; positive spin ad
 spin2 | rad/s | (-inf, inf) | | spin of the partner sphere, rad/s, of the same sign; default 0
 friction | 1 | [0, inf] | inf: no slip | coefficient of friction; inf: no slip; required
 """
+_WORDS = {"(0, inf)": "finite and > 0", "[0, inf)": "finite and >= 0", "(0, inf]": "> 0",
+          "[0, inf]": ">= 0", "(-inf, inf)": "finite"}
 
 
 class Field:
@@ -68,19 +70,16 @@ class Field:
     """
 
     def __init__(self, row):
-        cells = re.split(r" ?\| ?", " ".join(row.split()), maxsplit=4)
+        cells = re.split(r" ?\| ?", row, maxsplit=4)
         names, self.unit, ends, special, help = cells
         self.name, self.older = names.split()[0], names.split()[1:]
         self.key, self.option = self.name + _SUFFIXES[self.unit], "--" + self.name.replace("_", "-")
         low, high = ends[1:-1].split(", ")
         self.low, self.high = number(low), number(high)
         self.with_low, self.with_high = ends[0] == "[", ends[-1] == "]"
-        words = f"in {ends}" if high != "inf" else "finite" if low != "0" else \
-            f"{'>=' if self.with_low else '>'} 0"
-        if high == "inf" and low == "0" and not self.with_high:
-            words = f"finite and {words}"
-        self.allowed = f"must be {words}" + (f" ({special})" if special else "")
-        self.help = help if words == "finite" or "inf" in ends else f"{help}; in {ends}"
+        self.allowed = f"must be {_WORDS.get(ends, f'in {ends}')}"
+        self.allowed += f" ({special})" if special else ""
+        self.help = help if ends in _WORDS else f"{help}; in {ends}"
 
     def fits(self, value):
         """Whether a number, or each of an array, lies in the range."""
@@ -92,7 +91,12 @@ class Field:
         return read_number(text, place, self.allowed, self.fits)
 
 
-FIELDS = {field.name: field for field in map(Field, re.split(r"\n(?! )", _TABLE.strip()))}
+def _rows(table):
+    """The rows of a table in text; a row goes on in lines that begin with blanks."""
+    return [" ".join(row.split()) for row in re.split(r"\n(?! )", table.strip())]
+
+
+FIELDS = {field.name: field for field in map(Field, _rows(_TABLE))}
 DIMENSIONLESS = ("chi", "psi", "delta1", "gamma", "delta2")
 SOLID = ("modulus1", "youngs_modulus", "shore_a", "modulus2", "viscosity", "poisson_ratio",
          "time_shift")
@@ -162,43 +166,42 @@ def add_impact(parser):
     add_scene(parser)
 
 
+# Option | argument | lowest, highest | help
+_SOLUTION = """
+tolerance | ERROR | 1e-8, 0.1 | absolute error of ez and ex, in [1e-8, 0.1]; default 1e-3
+elements | N | 4, 1e6 | elements over the largest contact radius, 4 to 1000000; default chosen
+time-step | STEP | 1e-300, 1e300 | in T, or in s with a material; > 0; default chosen; not with sync
+max-work | SECONDS | 1e-9, inf | most work an impact may take, in nominal seconds, the same on every
+    machine; default 10
+time-limit | SECONDS | 0, inf | processor time an impact may take; 0 (default): 1, no limit with
+    --elements, --time-step or bem
+speed-limit | RATIO | 0, inf | flag FAST above this normal speed over wave speed; default 0.1
+radius-limit | RATIO | 0, inf | flag LARGE_CONTACT above this contact radius over radius; default
+    0.1
+displacement-limit | RATIO | 0, inf | flag LONG_SLIDE above this slide over contact radius; default
+    0.3
+dundurs-limit | BETA | 0, inf | flag COUPLED above this constant of Dundurs; default 0.1
+"""
+
+
 def add_solution(parser):
     """Options that say how impacts are solved."""
     group = parser.add_argument_group("How it is solved")
-    for name, metavar, help, read in (
-            ("method", "NAME", "euler (default): the foundation of the paper; sync: fast and "
-             "precise, for tables and tolerances below 1e-3; cvode, cvode-bdf, cvode-adams: "
-             "adaptive order and step, with events (component cvode); bem, bem-paper: boundary "
-             "elements, an independent check (component bem)", read_method),
-            ("tolerance", "ERROR", "absolute error of ez and ex, in [1e-8, 0.1]; default 1e-3",
-             bounded(1e-8, 0.1)),
-            ("elements", "N", "elements over the largest contact radius, 4 to 1000000; default "
-             "chosen", bounded(4, 1e6, whole=True)),
-            ("time-step", "STEP", "in T, or in s with a material; > 0; default chosen; not with "
-             "sync", bounded(1e-300, 1e300)),
-            ("max-work", "SECONDS", "most work an impact may take, in nominal seconds, the same on "
-             "every machine; default 10", bounded(1e-9, INFINITY)),
-            ("time-limit", "SECONDS", "processor time an impact may take; 0 (default): 1, no limit "
-             "with --elements, --time-step or bem", bounded(0, INFINITY)),
-            ("speed-limit", "RATIO", "flag FAST above this normal speed over wave speed; default "
-             "0.1", bounded(0, INFINITY)),
-            ("radius-limit", "RATIO", "flag LARGE_CONTACT above this contact radius over radius; "
-             "default 0.1", bounded(0, INFINITY)),
-            ("displacement-limit", "RATIO", "flag LONG_SLIDE above this slide over contact radius; "
-             "default 0.3", bounded(0, INFINITY)),
-            ("dundurs-limit", "BETA", "flag COUPLED above this constant of Dundurs; default 0.1",
-             bounded(0, INFINITY))):
-        options.add(group, name, metavar, help, read)
-
-
-SOLUTION = ("method", "tolerance", "elements", "time_step", "max_work", "time_limit", "speed_limit",
-            "radius_limit", "displacement_limit", "dundurs_limit")
+    options.add(group, "method", "NAME", "euler (default): the foundation of the paper; sync: fast "
+                "and precise, for tables and tolerances below 1e-3; cvode, cvode-bdf, cvode-adams: "
+                "adaptive order and step, with events (component cvode); bem, bem-paper: boundary "
+                "elements, an independent check (component bem)", read_method)
+    for row in _rows(_SOLUTION):
+        name, metavar, ends, help = row.split(" | ")
+        low, high = map(number, ends.split(", "))
+        options.add(group, name, metavar, help, bounded(low, high, whole=name == "elements"))
 
 
 def solution(arguments, **defaults):
     """The keywords of `restitute.pair` that say how: what was given, else these defaults."""
-    given = {name: getattr(arguments, name) for name in SOLUTION}
-    return {**defaults, **{name: value for name, value in given.items() if value is not None}}
+    names = ["method", *(row.partition(" ")[0].replace("-", "_") for row in _rows(_SOLUTION))]
+    return {**defaults, **{name: getattr(arguments, name) for name in names
+                           if name in arguments.given}}
 
 
 def read_method(text, place):
@@ -302,11 +305,17 @@ def _complete(given, place):
     for name in ("radius", "speed", "friction"):
         if name not in given:
             raise _missing(name, place)
-    words = given["material"], given.get("partner", "rigid")
-    if words == (str(words[0]), "rigid") and not given.keys() & {"density", "mass"}:
-        density = material_of(words[0]).density
-        if density > 0:
+    material = given["material"]
+    if not given.keys() & {"density", "mass"} and isinstance(material, str):
+        density = material_of(material).density
+        if density > 0 and given.get("partner", "rigid") == "rigid":
             given["density"] = density
+    elif not given.keys() & {"density", "mass"} and isinstance(material[0], str):
+        density = [material_of(name).density for name in material]
+        if not all(value > 0 for value in density):  # of one of the rows
+            raise Refusal(f"{place('density')} or {place('mass')} is missing: must be > 0 (the "
+                          "material gives no density)")
+        given["density"] = density
 
 
 def _missing(name, place):

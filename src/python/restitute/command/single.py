@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`restitute pair`: the restitution pair of one impact; of many by the module batch."""
+import signal
+from contextlib import contextmanager
+
 from restitute.command import options, problem
 from restitute.command.options import Refusal, number_text, say, shown
 
@@ -64,7 +67,8 @@ def run(arguments):
                         ("contours", "--grid or --input, and --figure"),
                         ("threads", "--input or --grid"), ("scheduler", "--input or --grid")):
         if name in arguments.given:
-            raise Refusal(f"--{name}: needs {needs}")
+            value = getattr(arguments, name)
+            raise Refusal(f"--{name}{'' if value is True else f' = {value}'}: needs {needs}")
     files.check(arguments.output, "--output")
     import restitute
 
@@ -79,6 +83,20 @@ def run(arguments):
     else:
         provenance.write(arguments.output, content, record)
     return 0
+
+
+@contextmanager
+def _ended_by_signals():
+    """Signals end the process at once, as nothing is being written: an impact may take long."""
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    for number, handler in before.items():
+        if handler != signal.SIG_IGN:
+            signal.signal(number, signal.SIG_DFL)
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def solve(arguments, outputs, function, **more):
@@ -106,7 +124,7 @@ def solve(arguments, outputs, function, **more):
     for option, path in outputs.items():
         places.write(f"--{option}", path, ".meta.json")
     places.check()
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(), _ended_by_signals():
         warnings.simplefilter("ignore")  # the message says the same of one impact
         made = function(**keywords, **{**problem.solution(arguments), **more})
     message = getattr(made, "result", made).message()

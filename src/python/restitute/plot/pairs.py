@@ -159,12 +159,14 @@ def _words(values):
     return np.asarray(values).dtype.kind not in "fiu"
 
 
-def grid_axes(columns, contours: bool = False) -> tuple:
+def grid_axes(columns, contours: bool = False, ordered: bool = False) -> tuple:
     """Which columns are the axis and the curves of a figure of rows: the two that vary, more values along x.
 
     Parameters
     ----------
     columns : dict of str to array_like, shape (rows,)
+    ordered : bool
+        The last column that varies is x, whichever has more values.
 
     Returns
     -------
@@ -182,6 +184,8 @@ def grid_axes(columns, contours: bool = False) -> tuple:
     distinct = {name: len(np.unique(values)) for name, values in columns.items()}
     varying = sorted((name for name in columns if distinct[name] > 1), key=lambda name: (_words(columns[name]),
                                                                                          -distinct[name]))
+    if ordered:
+        varying = [name for name in reversed(columns) if distinct[name] > 1]
     varying = varying or list(columns)[:1]
     if len(varying) > 2 or not varying or (distinct[varying[0]] < 2 and len(columns[varying[0]]) != 1):
         raise ValueError(f"{'more than two' if len(varying) > 2 else 'no'} columns vary: must be one or two")

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A run that can be continued: its rows lie in OUT.partial, its settings in OUT.partial.json.
+
+Both belong to one process at a time. OUT.partial gets the name OUT when all rows are there.
+"""
+import json
+import os
+import stat
+
+from restitute.command import files, provenance
+from restitute.command.options import Refusal, write_all
+
+
+class Partial:
+    """The file of an unfinished run, locked.
+
+    Attributes
+    ----------
+    path : str
+    empty : bool
+        Nothing is done yet.
+    """
+
+    def __init__(self, output, resume):
+        try:
+            place = files.Place(output)
+        except OSError as problem:
+            raise files.not_written(output, problem) from None
+        self.target, self.path = place.target, place.target + ".partial"
+        self.settings_path, self.descriptor = place.target + ".partial.json", None
+        while self.descriptor is None:
+            self._open(place, resume)
+        self.empty = os.fstat(self.descriptor).st_size == 0
+
+    def _open(self, place, resume):
+        """Open and lock it; again if the name has gone to another file meanwhile."""
+        found = False
+        try:
+            try:
+                descriptor = place.create(self.path)
+            except FileExistsError:
+                found = True
+                descriptor = os.open(self.path, os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK)
+        except OSError as problem:
+            raise files.not_written(self.path, problem) from None
+        try:
+            if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+                raise Refusal(f"{self.path} is not a regular file: remove it")
+            try:
+                files.lock(descriptor, self.path)
+            except FileNotFoundError:
+                return
+            except BlockingIOError:
+                raise Refusal(f"{self.path} is being written by another process") from None
+            if found and not resume:
+                raise Refusal(f"{self.path} is left from an interrupted run: continue it with "
+                              "--resume, or remove it")
+            self.descriptor, descriptor = descriptor, None
+        finally:
+            if descriptor is not None:
+                os.close(descriptor)
+
+    def begin(self, settings, header):
+        """Settings and header of a file in which nothing is done."""
+        files.write((self.settings_path, provenance.text(settings)))
+        self.append(header)
+
+    def check_settings(self, settings):
+        """Refuses to go on with other settings."""
+        try:
+            with open(self.settings_path, "rb") as file:
+                before = json.load(file)
+        except (OSError, ValueError) as why:
+            raise Refusal(f"{self.settings_path}: cannot be read: {why}") from None
+        for key, value in json.loads(provenance.text(settings)).items():
+            if key not in before or before[key] != value:
+                raise Refusal(f"--resume: {key} of this run differs from that of "
+                              f"{self.settings_path}")
+
+    def cut(self):
+        """Remove a last line that was not written to its end."""
+        _, length = self._scan()
+        os.ftruncate(self.descriptor, length)
+        os.lseek(self.descriptor, length, os.SEEK_SET)
+        self.empty = length == 0
+
+    def _scan(self):
+        """How many lines are complete, and where the last of them ends. A line end within quotes
+        ends none."""
+        with open(self.path, "rb") as file:
+            if b'"' not in (content := file.read()):
+                return content.count(b"\n"), content.rfind(b"\n") + 1
+        lines = length = at = quotes = 0
+        for line in content.split(b"\n")[:-1]:
+            at += len(line) + 1
+            quotes += line.count(b'"')
+            if quotes % 2 == 0:
+                lines, length = lines + 1, at
+        return lines, length
+
+    def append(self, text):
+        """Write rows."""
+        try:
+            write_all(self.descriptor, text)
+        except OSError as problem:
+            raise files.not_written(self.path, problem) from None
+
+    def commit(self, rows):
+        """Give it the final name, if it has as many rows and a header."""
+        found, _ = self._scan()
+        if found != rows + 1:
+            raise Refusal(f"{self.path} has {found} lines, not {rows + 1}: something else wrote to "
+                          "it")
+        try:
+            os.fsync(self.descriptor)
+            files.rename(self.path, self.target)
+        except OSError as problem:
+            raise files.not_written(self.target, problem) from None
+        files.unlink(self.settings_path)
+        self.leave()
+
+    def remove(self):
+        """Leave nothing of it."""
+        files.unlink(self.settings_path)
+        files.unlink(self.path)
+        self.leave()
+
+    def leave(self):
+        """Close it, which ends the lock."""
+        if self.descriptor is not None:
+            os.close(self.descriptor)
+            self.descriptor = None

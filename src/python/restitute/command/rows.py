@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What comes out of a batch: a row for each case, its cells as they came, then the result."""
+import io
+import json
+import re
+from collections import Counter
+from operator import itemgetter
+
+import numpy as np
+
+from restitute.command import options, problem, provenance
+from restitute.command.cases import RESULTS, Table, numbers, read_bytes
+from restitute.command.options import Refusal
+
+_INFINITY = float("inf")
+# What a number that is read back must be.
+_RANGES = {"ez": (0, 1, "must be in [0, 1]"), "ex": (-1, 1, "must be in [-1, 1]"),
+           "contact_time": (0, _INFINITY, "must be >= 0 (inf: no rebound)"),
+           **dict.fromkeys(RESULTS[3:6], (0, _INFINITY, "must be >= 0"))}
+
+
+class Rows:
+    """Results of cases.
+
+    Attributes
+    ----------
+    values : ndarray, shape (6, rows)
+        The numbers of RESULTS; nan where a row is not solved.
+    solved : ndarray of bool
+    status : ndarray of str
+        Remarks and the limits of the model that are passed, or why the row failed.
+    """
+
+    def __init__(self, cases, method):
+        self.cases, self.method = cases, method
+        self.values = np.full((len(_RANGES), cases.rows), np.nan)
+        self.solved = np.zeros(cases.rows, bool)
+        self.status = np.full(cases.rows, "", object)
+
+    def take(self, rows, pairs):
+        """The results of `restitute.pair` for these rows."""
+        for value, name in zip(self.values, RESULTS):
+            value[rows] = getattr(pairs, name)
+        self.solved[rows], self.status[rows] = pairs.status >= 0, pairs.words()
+        for row in rows[pairs.status < 0]:
+            self.status[row] = problem.in_words_of(self.cases.place, self.status[row])
+
+    def remarks(self):
+        """How many rows have which remark, and how many pass which limit of the model."""
+        remarks, limits = Counter(), Counter()
+        for status, count in Counter(self.status[self.solved].tolist()).items():
+            remark, names = _split(status)
+            limits.update(dict.fromkeys(names, count))
+            if remark:
+                remarks[remark] += count
+        return remarks, limits
+
+    def flags(self):
+        """The limits that are passed, as bits."""
+        from restitute.impact import LIMITS
+
+        bits = {name: bit for bit, name, *_ in LIMITS}
+        of = {status: sum(bits[name] for name in _split(status)[1])
+              for status in set(self.status[self.solved].tolist())}
+        return np.array([of.get(s, 0) if good else 0 for s, good in zip(self.status, self.solved)])
+
+    # ------------------------------------------------------------------------------- CSV and back
+
+    def header(self):
+        """The first line."""
+        return ",".join(_quoted([*self.cases.names, *RESULTS])) + "\n"
+
+    def lines(self, begin, end):
+        """Rows [begin, end) as they are written."""
+        columns = [_quoted(cells[begin:end]) for cells in self.cases.cells]
+        columns += [_texts(value[begin:end]) for value in self.values]
+        columns.append([self.method if good else "" for good in self.solved[begin:end].tolist()])
+        columns.append(_quoted(self.status[begin:end].tolist()))
+        return "\n".join(map(",".join, zip(*columns))) + "\n"
+
+    def read(self, path):
+        """Take rows that were written before.
+
+        Returns
+        -------
+        int
+            How many there are.
+
+        Raises
+        ------
+        Refusal
+            They are not what this run writes; the text names line, column and value.
+        """
+        table, wanted = Table(read_bytes(path), path), [*self.cases.names, *RESULTS]
+        if len(table.names) != len(wanted):
+            raise Refusal(f"{path}: has {len(table.names)} columns: must be {len(wanted)}")
+        for i, (name, must) in enumerate(zip(table.names, wanted)):
+            if name != must:
+                raise Refusal(f'{path}: column {i + 1} is "{name[:64]}": must be {must}')
+        done, first = len(table.lines), len(self.cases.names)
+        problems = [self._foreign(table.cells[:first], done), *self._take(table.cells[first:], done)]
+        row, why = min(problems, key=itemgetter(0))
+        if row < done:
+            raise Refusal(f"{path} line {table.lines[row]} (row {row + 1}): {why}")
+        return done
+
+    def _foreign(self, columns, done):
+        """The first row that is not that of the case."""
+        rows = [self.cases.rows]
+        for cells, ours in zip(columns, self.cases.cells):
+            if list(cells) != list(ours[:done]):
+                rows.append(next((i for i, (a, b) in enumerate(zip(cells, ours)) if a != b), done))
+        return min(rows), "does not belong to these cases; remove it to start anew"
+
+    def _take(self, columns, done):
+        """Take the results; yields the first bad row of each kind, and what is bad."""
+        *columns, method, status = columns
+        solved = np.array([cell != "" for cell in method], bool)
+        for i, (cell, text) in enumerate(zip(method, status)):
+            if cell not in ("", self.method):
+                yield i, f'method = "{cell[:64]}": must be {self.method}'
+            elif not cell and not text:
+                yield i, "method and status are empty: neither solved nor failed"
+        for k, (name, (low, high, words)) in enumerate(_RANGES.items()):
+            texts = list(dict.fromkeys(columns[k]))
+            known = dict(zip(texts, numbers(texts, options.number)[0].tolist()))
+            value = np.array([known[cell] for cell in columns[k]])
+            good = np.where(solved, (value >= low) & (value <= high),
+                            [cell == "" for cell in columns[k]])
+            for i in np.flatnonzero(~good)[:1]:
+                must = words if solved[i] else "must be empty, since method is empty"
+                yield int(i), f'{name} = "{columns[k][i][:64]}": {must}'
+            self.values[k, :done] = value
+        self.solved[:done], self.status[:done] = solved, status
+        yield done, ""
+
+    # ------------------------------------------------------------------------------ other formats
+
+    def units(self, given):
+        """The unit of each column that has one; `given` are the names that options give."""
+        fields = {name: problem.field_of_column(name) for name in self.cases.names}
+        physical = not {*self.cases.known, *given} <= set(problem.DIMENSIONLESS)
+        return {**{name: field.unit for name, field in fields.items() if field},
+                **dict.fromkeys(_RANGES, "1"), "contact_time": "s" if physical else "T",
+                "max_indentation": "m" if physical else "d0"}
+
+    def json(self, record):
+        """The record and all rows, one a line."""
+        columns = []
+        for i, cells in enumerate(self.cases.cells):
+            texts = {cell: _json(value) for cell, value in self.cases.different(i).items()}
+            columns.append([texts[cell] for cell in cells])
+        columns += [[_json(value) for value in values.tolist()] for values in self.values]
+        columns.append([json.dumps(self.method) if good else "null" for good in self.solved])
+        columns.append([_json(text) for text in self.status])
+        members = (json.dumps(name).replace("%", "%%") for name in [*self.cases.names, *RESULTS])
+        row = "    {" + ", ".join(f"{member}: %s" for member in members) + "}"
+        meta = provenance.text({"meta": record}).decode("utf-8")
+        return meta[:-3] + ',\n  "results": [\n' + ",\n".join(map(row.__mod__, zip(*columns))) \
+            + "\n  ]\n}\n"
+
+    def hdf5(self, record):
+        """The bytes of an HDF5 file: a dataset for each column, the record as an attribute."""
+        h5py, content = options.need("h5py", "--output"), io.BytesIO()
+        columns = {name: self.cases.column(i) for i, name in enumerate(self.cases.names)}
+        columns.update(zip(_RANGES, self.values), status=self.status)
+        with h5py.File(content, "w") as file:
+            file.attrs["record"] = provenance.text(record)
+            for name, values in columns.items():
+                if values.dtype == object:
+                    values = np.array([value.encode("utf-8", "surrogateescape")
+                                       for value in values], h5py.string_dtype())
+                data = file.create_dataset(name.replace("/", " per "), data=values)
+                if name in record["units"]:
+                    data.attrs["unit"] = record["units"][name]
+        return content.getvalue()
+
+
+def _split(status):
+    """The remark and the names of limits in a status "text; FAST LARGE_CONTACT"."""
+    remark, _, names = status.rpartition("; ")
+    if re.fullmatch(r"[A-Z_]+( [A-Z_]+)*", names):
+        return remark, names.split()
+    return status, []
+
+
+def _texts(values):
+    """Numbers with as many digits as are needed to read them back; nan is nothing."""
+    return [text[:-2] if text[-2:] == ".0" else "" if text == "nan" else text
+            for text in map(repr, values.tolist())]
+
+
+def _json(value):
+    return json.dumps(provenance.of_number(value) if isinstance(value, float) else value)
+
+
+def _quoted(cells):
+    """Cells as CSV has them."""
+    text = "\n".join(cells)
+    if text.count("\n") < len(cells) and not re.search(r'[",\r# \t]', text):
+        return cells
+    return ['"' + cell.replace('"', '""') + '"' if re.search(r'[",\r\n]|\A[# \t]|[ \t]\Z', cell)
+            else cell for cell in cells]
