@@ -52,11 +52,11 @@ def add(subparsers):
              "model; needs matplotlib", ending(".svg", ".png", ".pdf"))):
         options.add(group, name, metavar, help, read)
     info = actions.add_parser("info", usage="restitute table info FILE [OPTION...]", epilog=_INFO)
-    info.add_argument("file", nargs="?", help="the table")
+    info.add_argument("file", nargs="?", metavar="FILE", help="the table")
     options.add(info, "format", "text|json", "default text", options.one_of("text", "json"))
     query = actions.add_parser("query", usage="restitute table query FILE [OPTION...]",
                                epilog=_QUERY)
-    query.add_argument("file", nargs="?", help="the table")
+    query.add_argument("file", nargs="?", metavar="FILE", help="the table")
     for name, metavar, help, read in (
             ("normal-speed", "V", "normal speed, m/s, >= 0; required",
              bounded(*_SPEEDS["normal_speed"])),
