@@ -310,7 +310,8 @@ def _complete(given, place):
         density = material_of(material).density
         if density > 0 and given.get("partner", "rigid") == "rigid":
             given["density"] = density
-    elif not given.keys() & {"density", "mass"} and isinstance(material[0], str):
+    elif (not given.keys() & {"density", "mass"} and getattr(material, "ndim", 1)
+          and isinstance(material[0], str)):
         density = [material_of(name).density for name in material]
         if not all(value > 0 for value in density):  # of one of the rows
             raise Refusal(f"{place('density')} or {place('mass')} is missing: must be > 0 (the "
