@@ -340,7 +340,7 @@ def _fit_drops(arguments):
     density = arguments.density if isinstance(words, str) and words == "same" else None
     return SimpleNamespace(fit=fit, rows=rows, quality=quality, numbers=numbers, density=density,
                            constants=list(zip(fit.names, fit.value, fit.low, fit.high)),
-                           correlation=correlation, series=lambda: _drop_series(fit))
+                           correlation=correlation, drawn=dict)
 
 
 def _known(arguments):
@@ -409,7 +409,7 @@ def _fit_curve(arguments):
             "rms": fit.rms, "worst": fit.worst, "flags": fit.flags},
         constants=[(*constant, float("nan"), float("nan")) for constant in constants],
         quality=f"Prony series of {fit.modulus.size} terms, relative residuals: rms {fit.rms:.3g}, "
-        f"largest {fit.worst:.3g}", series=lambda: _curve_series(arguments, fit, rows.numbers))
+        f"largest {fit.worst:.3g}", drawn=lambda: _curve(arguments, fit, rows.numbers))
 
 
 # ----------------------------------------------------------------------------------------- output
@@ -475,23 +475,11 @@ def _report(done):
     return "\n".join([*lines, "", f"  {done.quality}", ""])
 
 
-def _drop_series(fit):
-    """What plot.fit draws."""
-    names = {"ez": "ez", "ex": "ex", "contact_time": "time"}
-    speed = fit.measured["normal_speed"]
-    return {short: (speed, fit.measured[name], fit.fitted[name]) for name, short in names.items()}
-
-
-def _curve_series(arguments, fit, numbers):
-    import numpy as np
-
-    frequency = np.array(numbers["frequency"])
-    for temperature, shift in zip(fit.temperature, fit.shift):
-        frequency[numbers["temperature"] == temperature] *= shift
+def _curve(arguments, fit, numbers):
+    """What plot.fit draws: shear moduli."""
     factor = 1 / (2 * (1 + fit.material.poisson_ratio)) if arguments.tension else 1
-    omega = 2 * np.pi * frequency
-    return {name: (frequency, factor * numbers[name], of(omega)) for name, of in (
-        ("storage", fit.material.storage_modulus), ("loss", fit.material.loss_modulus))}
+    return {**{name: factor * numbers[name] for name in ("storage", "loss")},
+            **{name: numbers.get(name) for name in ("frequency", "temperature")}}
 
 
 def _figure(path, done):
@@ -505,7 +493,7 @@ def _figure(path, done):
                       done.constants[:6])
     axes = plot.sheet(2, f"{done.fit.material.name[:100]}: {done.fit.model}", note,
                       f"restitute {restitute.version()} fit")
-    plot.fit(done.series(), dma="worst" in done.numbers, ax=axes)
+    plot.fit(done.fit, **done.drawn(), ax=axes)
     image = io.BytesIO()
     plot.save(axes, image, os.path.splitext(path)[1][1:].lower())
     return image.getvalue()

@@ -121,10 +121,10 @@ def fit(fit: Any, frequency: Any = None, storage: Any = None, loss: Any = None,
     if not dma and fit.flags & 8:  # RESTITUTE_FIT_FLAG_LIMITS
         ax[1].plot([], [], "x", color=RED, label="some impacts are\nbeyond a limit\nof the model")
     xlabel = "frequency × shift (Hz)" if dma else _SPEED
-    ax[0].set(title="Data (points) and fit (lines)", xscale="log", xlabel=xlabel,
+    ax[0].set(title="data (points) and fit (lines)", xscale="log", xlabel=xlabel,
               yscale="log" if dma else "linear",
               ylabel="shear moduli (Pa)" if dma else "restitution")
-    ax[1].set(title="Residuals", xscale="log", xlabel=xlabel,
+    ax[1].set(title="residuals", xscale="log", xlabel=xlabel,
               ylabel="measured / fitted − 1" if dma else "measured − fitted")
     legend(ax[1])
     return ax
