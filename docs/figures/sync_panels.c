@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/kernels.h"
 #include "sync/kernels.h"
 
 enum { arms = 2, room = 64, samples = 24 };
@@ -79,7 +80,7 @@ int main(int argc, char **argv)
                                                 .halvings = 2,
                                                 .capacity = room};
     const struct sync_contact contact = {.chi = chi, .psi = psi, .roughness = 1e-3, .noise = 1e-8,
-                                         .closeness = 1e-12, .stress = 1};
+                                         .closeness = 1e-12, .stress = 1, .mode = RST_GROSS_SLIP};
     struct sync_normal normal = {.n_arms = arms,
                                  .scale = sqrt(0.4 * 0.84), /* about r of the largest indentation */
                                  .closeness = 1e-12,

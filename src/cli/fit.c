@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-#include "bench.h"
 #include "figure.h"
 #include "fit_settings.h"
 #include "output.h"
@@ -60,9 +60,8 @@ static bool run(restitute_fitter *fitter, struct reason *why)
     while (done < 1 && !status) {
         status = restitute_fitter_run(fitter, &done, &error);
         snprintf(text, sizeof text, "fit: %.0f %%", 100 * done);
-        bench_progress(text);
+        if (isatty(STDERR_FILENO)) fprintf(stderr, "\rrestitute: %-70s%s", text, done < 1 && !status ? "" : "\n");
     }
-    bench_progress(NULL);
     return !stopped && (!status || refuse(why, "%s", error.message));
 }
 

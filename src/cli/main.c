@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "batch.h"
-#include "bench.h"
 #include "fit.h"
 #include "history.h"
 #include "single.h"
@@ -18,10 +17,9 @@ static const char usage[] =
     "Usage: restitute pair [OPTION...]       the restitution pair (ez, ex) of one impact or of many\n"
     "       restitute history [OPTION...]    forces, radii and velocities during one impact\n"
     "       restitute sweep NAME|all [OPTION...]  the figures of the paper and more, remade and checked\n"
-    "       restitute bench [OPTION...]      error against run time of the methods, on a fixed set of impacts\n"
     "       restitute table ACTION [OPTION...]  build tables of pairs, look up in them\n"
     "       restitute fit [OPTION...]        material constants from measured impacts or a DMA curve\n"
-    "       restitute pair --help, restitute history --help, and likewise for sweep, bench, table and fit,\n"
+    "       restitute pair --help, restitute history --help, and likewise for sweep, table and fit,\n"
     "       restitute --version\n"
     "\n"
     "Oblique impact of linear-viscoelastic spheres with friction. The manual is restitute(1).\n";
@@ -77,8 +75,6 @@ int main(int count, char **arguments)
     int status = EXIT_DONE;
     if (strcmp(word, "pair") == 0 || strcmp(word, "history") == 0 || strcmp(word, "sweep") == 0)
         status = run_subcommand(count, arguments);
-    else if (strcmp(word, "bench") == 0)
-        status = bench_main(count, arguments);
     else if (strcmp(word, "table") == 0)
         status = table_main(count, arguments);
     else if (strcmp(word, "fit") == 0)
@@ -90,9 +86,9 @@ int main(int count, char **arguments)
     else
         status =
             *word ? complain(
-                        "unknown command \"%.64s\": must be pair, history, sweep, bench, table or fit; see restitute --help",
+                        "unknown command \"%.64s\": must be pair, history, sweep, table or fit; see restitute --help",
                         word)
-                  : complain("a command is missing: pair, history, sweep, bench, table or fit; see restitute --help");
+                  : complain("a command is missing: pair, history, sweep, table or fit; see restitute --help");
     errno = 0;
     if ((fflush(stdout) != 0 || ferror(stdout)) && status == EXIT_DONE)
         status = complain("standard output cannot be written: %s", strerror(errno ? errno : EIO));

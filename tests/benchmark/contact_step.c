@@ -1,21 +1,16 @@
-/* Time of a contact step beside a bare Hertz-Mindlin step, as ratios in one run:
- *   contact_step [contacts]     contacts in memory, default 64 (hot); 1000000: from memory
+/* Time of a contact step, singly and in batches, beside a bare Hertz-Mindlin step, as CSV:
+ *
+ *     contact_step [CONTACTS]     in memory: default 64 (hot); 1000000: from memory
+ *
  * SPDX-License-Identifier: BSD-3-Clause */
-#define _POSIX_C_SOURCE 200809L
 #include <restitute/contact.h>
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
+#include "bench.h"
 
 /* What a DEM code does in a step of Hertz and Mindlin: dashpots of constant restitution, one
  * tangential spring with history, turned into the tangential plane, limited by friction. */
@@ -80,7 +75,7 @@ static double time_of(const restitute_contact_law *law, int many, size_t n, rest
         double spent = 0;
         for (int step = 0; step < steps; step++) {
             move(n, step, motion);
-            const double start = now();
+            const double start = bench_clock();
             if (many)
                 restitute_contact_step_many(law, &rates, n, motion, state, force, NULL, NULL);
             else
@@ -90,7 +85,7 @@ static double time_of(const restitute_contact_law *law, int many, size_t n, rest
                     else
                         hertz_mindlin(1, 0.1, h, &motion[i], state[i], &force[i]);
                 }
-            spent += now() - start;
+            spent += bench_clock() - start;
         }
         best = fmin(best, spent);
     }
@@ -118,14 +113,13 @@ int main(int count, char **words)
         motion[i].inverse_mass = 2 / 1.2e-9, motion[i].inverse_tangential_mass = 7 / 1.2e-9;
     }
     const double bare = time_of(NULL, 0, n, motion, states, state, force);
-    printf("%zu contacts; Hertz-Mindlin %.1f ns\n", n, bare);
+    printf("law,contacts,doubles,hertz_mindlin_ns,single_ns,batch_ns\n");
     for (int i = 0; i < 4; i++) {
         restitute_contact_law *law;
         if (restitute_contact_law_create(material[i], NULL, &law, NULL)) return 1;
         const double one = time_of(law, 0, n, motion, states, state, force);
         const double many = time_of(law, 1, n, motion, states, state, force);
-        printf("%-15s %zu doubles: single %.1f ns, ratio %.1f; in batches %.1f ns, ratio %.1f\n", name[i],
-               restitute_contact_law_state_size(law), one, one / bare, many, many / bare);
+        printf("%s,%zu,%zu,%.4g,%.4g,%.4g\n", name[i], n, restitute_contact_law_state_size(law), bare, one, many);
         restitute_contact_law_destroy(law);
     }
 }

@@ -9,7 +9,7 @@
 
 #include <restitute/fit.h>
 
-#include "../../src/bench/random.h"
+#include "../support/random.h"
 
 enum { POINTS = 20, MOST = 4 };
 static const double pi = 3.14159265358979323846, prony_times[] = {3e-5, 3e-3};

@@ -1,37 +1,22 @@
-/* A lookup beside pow, in the same run: medians over repetitions, in ns and in calls of pow.
+/* A lookup beside pow, in the same run: medians over repetitions, as CSV.  table_lookup [REPEATS]
  *
- *     table_lookup
- *
- * One table at 1e-5 over six decades of speed (with the time of its build). Places are random over
- * all speeds and psi up to beyond psi_c; pow has random arguments as well. A thousand places in
+ * One table at 1e-5 over six decades of speed. Places are random over all speeds and psi up to
+ * beyond psi_c; pow has random arguments as well. A thousand places in
  * turn: a processor comes to foresee on which side of psi = 1 and of psi_c the next one is. A
  * hundred thousand: it does not. "chained": every call needs the result of the one before it, which
  * measures latency.
  * SPDX-License-Identifier: BSD-3-Clause */
-#define _POSIX_C_SOURCE 200809L
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include <restitute/table.h>
 
+#include "../support/random.h"
+#include "bench.h"
+
 enum { few = 1000, n = 100000, most_repeats = 1001 };
-
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static double random_unit(void)
-{
-    static uint64_t state = 1;
-    state = state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    return (double)(state >> 11) * 0x1p-53;
-}
+static int fewest_repeats = 51;
 
 struct places {
     const restitute_table *table;
@@ -83,80 +68,58 @@ static double table_many(const struct places *p)
     return ex[p->count - 1];
 }
 
-static int by_value(const void *a, const void *b)
-{
-    return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b);
-}
-
 static double median_ns(double (*work)(const struct places *), const struct places *p)
 {
     static double samples[most_repeats];
-    const int repeats = p->count == few ? most_repeats : 51;
+    const int repeats = p->count == few && fewest_repeats > 1 ? most_repeats : fewest_repeats;
     for (int i = 0; i < repeats; i++) {
-        const double start = seconds();
+        const double start = bench_time();
         sink = work(p);
-        samples[i] = (seconds() - start) / p->count * 1e9;
+        samples[i] = (bench_time() - start) / p->count * 1e9;
     }
-    qsort(samples, (size_t)repeats, sizeof *samples, by_value);
-    return samples[repeats / 2];
+    return bench_median(samples, (size_t)repeats);
 }
 
-static void report(const char *name, double ns, double pow_ns)
-{
-    printf("%-34s %7.1f ns   %5.2f pow\n", name, ns, ns / pow_ns);
-}
-
-static restitute_table *build(const restitute_scene *scene, double tolerance, const char *name)
-{
-    restitute_table *table = NULL;
-    restitute_table_options options;
-    restitute_table_info info;
-    restitute_error error;
-    restitute_table_options_init(&options);
-    options.tolerance = tolerance;
-    const clock_t start = clock(); /* of the processor: one thread */
-    if (restitute_table_build(scene, &options, &table, &error) < 0) {
-        fprintf(stderr, "%s\n", error.message);
-        exit(1);
-    }
-    const double time = (double)(clock() - start) / CLOCKS_PER_SEC;
-    restitute_table_info_init(&info);
-    restitute_table_describe(table, &info, NULL);
-    printf("%-34s %7.3f s for %lld impacts, errors %.1e %.1e, %.2f MB\n", name, time, (long long)info.impacts,
-           info.error_ez, info.error_ex, (double)info.bytes / 1e6);
-    return table;
-}
-
-static void measure_contact(struct places *p, double pow_ns, double chained_ns)
+static restitute_table *build(void)
 {
     restitute_material *rubber = NULL;
+    restitute_table *table = NULL;
+    restitute_table_options options;
     restitute_scene scene;
     restitute_scene_init(&scene);
+    restitute_table_options_init(&options);
     restitute_material_kelvin_voigt(1e6, 300, 0.5, &rubber, NULL);
     scene.material = rubber;
     scene.radius1 = 0.005, scene.mass1 = 0.004, scene.friction = 0.3;
-    restitute_table *table = build(&scene, 1e-5, "build, 1e-5");
-    p->table = table;
-    for (p->count = few; p->count <= n; p->count *= n / few) {
-        printf("%d places:\n", p->count);
-        report("restitute_table_pair", median_ns(table_free, p), pow_ns);
-        report("restitute_table_pair_many", median_ns(table_many, p), pow_ns);
-        report("restitute_table_pair, chained", median_ns(table_chained, p), chained_ns);
-    }
-    restitute_table_destroy(table);
+    options.tolerance = 1e-5;
+    const int status = restitute_table_build(&scene, &options, &table, NULL);
     restitute_material_destroy(rubber);
+    return status < 0 ? NULL : table;
 }
 
-int main(void)
+static void report(const char *call, const struct places *p, double ns, double pow_ns)
+{
+    printf("%s,%d,%.4g,%.4g\n", call, p->count, ns, pow_ns);
+}
+
+int main(int count, char **words)
 {
     static struct places p = {.count = few};
+    uint64_t state = 1;
+    restitute_table *table = build();
+    if (count > 1) fewest_repeats = atoi(words[1]);
+    if (!table || fewest_repeats < 1 || fewest_repeats > most_repeats) return 2;
     for (int i = 0; i < n; i++) {
-        p.v[i] = 1e-4 * pow(1e6, random_unit());
-        p.u[i] = 5 * random_unit() * p.v[i] * 0.45; /* psi up to 5 with nu = 1/2, mu = 0.3 */
+        p.v[i] = random_log(&state, 1e-4, 100);
+        p.u[i] = random_in(&state, 0, 5) * p.v[i] * 0.45; /* psi up to 5 with nu = 1/2, mu = 0.3 */
     }
+    p.table = table;
+    puts("call,places,ns,pow_ns");
     const double pow_ns = median_ns(pow_free, &p), chained_ns = median_ns(pow_chained, &p);
-    report("pow", pow_ns, pow_ns);
-    report("pow, chained", chained_ns, chained_ns);
-    measure_contact(&p, pow_ns, chained_ns);
-    return 0;
+    for (p.count = few; p.count <= n; p.count *= n / few) {
+        report("single", &p, median_ns(table_free, &p), pow_ns);
+        report("many", &p, median_ns(table_many, &p), pow_ns);
+        report("chained", &p, median_ns(table_chained, &p), chained_ns);
+    }
+    restitute_table_destroy(table);
 }

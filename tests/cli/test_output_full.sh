@@ -98,7 +98,3 @@ if have gnuplot; then
     absent f.png
     no_temporary
 fi
-
-# A benchmark stops as well.
-narrow 0 2 bench --stability --quick --methods euler --output map
-has err 'map-stability.csv.partial: cannot be written: File too large'

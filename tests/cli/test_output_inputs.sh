@@ -111,13 +111,3 @@ if ! grep -q 'no component table_files' err; then
     clash '--output = t.csv' 'the table t.h5' table query t.h5 --input speeds.csv --output t.csv
     clash '--output = again.csv' '--input speeds.csv' table query t.h5 --input speeds.csv --output again.csv
 fi
-
-# Shards of a campaign, and outputs of a report.
-echo row >shard-bem.csv
-ln -s shard-bem.csv again-bem.csv
-"$RESTITUTE" bench --bem-campaign 1 --join shard-bem.csv --output again >out 2>err
-if ! grep -q 'not in this build' err; then
-    clash '--output = again-bem.csv' '--join shard-bem.csv' bench --bem-campaign 1 --join shard-bem.csv --output again
-fi
-ln -s r-runs.csv r-speed.csv
-refused '--output and --output are the same file, r-speed.csv' bench --quick --output r

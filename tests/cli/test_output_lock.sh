@@ -91,9 +91,3 @@ cmp q.csv quoted.csv || fail "resumed within a quoted cell: other rows"
 refused 'left from an interrupted run' pair --input lines.csv --radius 0.01 --density 7800 --friction 0.3 --output e.csv
 expect 1 pair --input lines.csv --radius 0.01 --density 7800 --friction 0.3 --output e.csv --resume
 cmp e.csv quoted.csv || fail "resumed from an empty file: other rows"
-
-# Benchmarks keep the same rule.
-begin map-stability.csv.partial bench --stability --methods euler --output map
-refused "map-stability.csv.partial $other" bench --stability --methods euler --output map --resume
-end KILL
-refused 'left from an interrupted run' bench --stability --methods euler --output map

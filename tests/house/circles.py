@@ -12,9 +12,9 @@ import sys
 from pathlib import Path
 
 # These become Python: their includes name no folder, and circles among their own files are left.
-OLD_FOLDERS = ("cli", "bench")
+OLD_FOLDERS = ("cli",)
 OLD_FILES = tuple(f"{folder}/" for folder in OLD_FOLDERS)
-MADE_BY_CMAKE = ("base/version.h", "reference_rows.h")
+MADE_BY_CMAKE = ("base/version.h",)
 # A definition starts at the margin and its body with a brace there.
 DEFINITION = re.compile(r"^(?!static)\w[^;{}()=]*\b((?:rst|restitute)_\w+)\([^;{}]*\)\n\{", re.M)
 

@@ -13,8 +13,8 @@ from pathlib import Path
 from tree import files_of, prose_of
 
 MOST = 100
-# The command and bench become Python.
-NOT_READ = ("src/cli/", "src/bench/", "CHANGELOG.md")
+# The command becomes Python.
+NOT_READ = ("src/cli/", "CHANGELOG.md")
 UNBROKEN = re.compile(r"\||!\[|    ")
 FORMULA = re.compile(r" *(?:/\*+|\*|!>|!!|!|#|//) {2,}|!\$|#!")
 

@@ -6,7 +6,7 @@
 #include <restitute/fit.h>
 #include <string.h>
 
-#include "../../src/bench/random.h"
+#include "random.h"
 #include "check.h"
 
 /* A steel ball of 10 mm at speeds even in the logarithm, not yet measured. */

@@ -66,8 +66,8 @@ def table(table, *, ax=None):
     ax = axes_of(ax, 2)
     low, high = table.speed
     speed, angle = np.geomspace(low, high, 81)[:, None], np.linspace(0, 86, 44)
-    pairs = table.pair(speed, speed * np.tan(np.radians(angle)))
-    straight = table.pair(speed[:, 0], 0.0)
+    pairs = table.pair(speed, speed * np.tan(np.radians(angle)), check=False)
+    straight = table.pair(speed[:, 0], 0.0, check=False)
     ax[0].plot(speed, straight.ez, **{**look(0, 1), "marker": ""})
     shade_limits(ax[0], speed * [1, 1], np.ones_like(speed) * [0, 1], straight.flags[:, None] * np.array([1, 1]))
     ax[0].set(title="Normal restitution", xscale="log", xlim=(low, high), ylim=(0, 1), xlabel="normal speed (m/s)",

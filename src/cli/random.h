@@ -1,8 +1,9 @@
-/* Seeded random numbers (SplitMix64): the same on every machine, so that a failing case can be named by its number. One draw a
- * declaration: C leaves it to the compiler which argument of a call is made first.
+/* Seeded random numbers (SplitMix64): the same on every machine, so that a failing case can be named
+ * by its number. One draw a declaration: C leaves it to the compiler which argument of a call is
+ * made first.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef BENCH_RANDOM_H
-#define BENCH_RANDOM_H
+#ifndef SUPPORT_RANDOM_H
+#define SUPPORT_RANDOM_H
 
 #include <math.h>
 #include <stdint.h>

@@ -1,11 +1,16 @@
-/* Pairs of scenes, full and lean, timed in turn.
+/* What leaving out saves: the time of a scene that needs everything ("full") and of one like it in
+ * which a part can be left out ("lean"), in one run and in turn, as CSV.
+ *
+ *     omissions METHODS REPEATS
+ *
+ * The full scene is next to the lean one: a dashpot that is weak but not negligible, psi below and
+ * not above 1, a friction that is not zero. An impact that is refused has empty cells.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "omissions.h"
-
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "timing.h"
+#include "bench.h"
 
 enum { long_terms = 30 };
 
@@ -21,34 +26,33 @@ struct variant {
 };
 
 /* chosen: elements and step are chosen by the method at the default tolerance, else prescribed. */
-struct pair {
+static const struct pair {
     const char *left_out;
     struct variant full, lean;
     int chosen;
-};
-
-static const struct pair pairs[BENCH_OMISSIONS] = {
-    {"dashpot states", {"weak dashpot", WEAK_DASHPOT, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 0},
-    {"tangential states", {"psi = 0.7", STANDARD, 0.7, 0, 0}, {"frictionless: normal only", STANDARD, INFINITY, 0, 0}, 0},
-    {"tangential elements in full slip", {"psi = 0.9", STANDARD, 0.9, 0, 0}, {"psi = 5 > psi_c", STANDARD, 5, 0, 0}, 0},
+} pairs[] = {
+    {"dashpot states", {"a dashpot that changes the result by 1e-5", WEAK_DASHPOT, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 0},
+    {"tangential states: the normal problem only", {"psi = 0.7", STANDARD, 0.7, 0, 0}, {"frictionless", STANDARD, INFINITY, 0, 0}, 0},
+    {"tangential elements in full slip", {"psi = 0.9", STANDARD, 0.9, 0, 0}, {"psi = 5, above psi_c", STANDARD, 5, 0, 0}, 0},
     {"tangential elements in gross slip", {"psi = 0.9", STANDARD, 0.9, 0, 0}, {"psi = 1.6", STANDARD, 1.6, 0, 0}, 0},
-    {"friction limit", {"psi = 1e-9", STANDARD, 1e-9, 0, 0}, {"psi = 0: no slip", STANDARD, 0, 0, 0}, 0},
-    {"merged Prony terms", {"30 terms all felt", FELT_TERMS, 0.7, 0, 0}, {"30 terms merged", SPREAD_TERMS, 0.7, 0, 0}, 0},
-    {"energy ledger", {"ledger", STANDARD, 0.7, 1, 0}, {"no ledger", STANDARD, 0.7, 0, 0}, 0},
-    {"normal motion", {"psi = 0.7", STANDARD, 0.7, 0, 0}, {"psi = 0.7 of a plan", STANDARD, 0.7, 0, 1}, 0},
-    {"normal motion", {"30 terms all felt", FELT_TERMS, 0.7, 0, 0}, {"30 terms of a plan", FELT_TERMS, 0.7, 0, 1}, 0},
+    {"friction limit", {"psi = 1e-9", STANDARD, 1e-9, 0, 0}, {"psi = 0", STANDARD, 0, 0, 0}, 0},
+    {"merged Prony terms", {"30 terms in two decades, none merged", FELT_TERMS, 0.7, 0, 0}, {"30 terms over 18 decades, merged at 1e-3", SPREAD_TERMS, 0.7, 0, 0}, 0},
+    {"energy ledger", {"asked for", STANDARD, 0.7, 1, 0}, {"not asked for", STANDARD, 0.7, 0, 0}, 0},
+    {"normal motion of a standard solid", {"a single call", STANDARD, 0.7, 0, 0}, {"a plan that has it", STANDARD, 0.7, 0, 1}, 0},
+    {"normal motion of 30 terms", {"a single call", FELT_TERMS, 0.7, 0, 0}, {"a plan that has it", FELT_TERMS, 0.7, 0, 1}, 0},
     {"default impact", {"Kelvin-Voigt", VOIGT, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 1},
     {"default impact", {"Maxwell", MAXWELL, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 1},
     {"default impact", {"standard solid", STANDARD, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 1},
-    {"default impact", {"30 terms merged", SPREAD_TERMS, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 1},
+    {"default impact", {"30 terms, merged", SPREAD_TERMS, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 1},
 };
 
-/* Where resolution is prescribed: as many elements and steps as the default tolerance takes for most impacts. */
+/* Where resolution is prescribed: as many elements and steps as the default tolerance takes for
+ * most impacts. */
 static const int64_t elements = 64;
 static const double step = 1e-3;
 
-/* Prescribed resolution leaves to the tolerance only what is merged: with the smallest one, nothing that the impact
- * feels. */
+/* Prescribed resolution leaves to the tolerance only what is merged: with the smallest one, nothing
+ * that the impact feels. */
 static const double keep_all = 1e-8, merge = 1e-3;
 
 static int make_solid(enum solid kind, restitute_material **material, restitute_error *error)
@@ -76,8 +80,8 @@ static int make_solid(enum solid kind, restitute_material **material, restitute_
     }
 }
 
-/* A variant ready to be timed. Without friction there is a scene in SI units, whose numbers are then those of the
- * impact. */
+/* A variant ready to be timed. Without friction there is a scene in SI units, whose numbers are
+ * then those of the impact. */
 struct ready {
     restitute_material *solid;
     restitute_solver *solver;
@@ -142,52 +146,52 @@ static void release(struct ready *r)
 
 static double time_once(struct ready *r)
 {
-    const double start = bench_processor_time();
+    const double start = bench_time();
     solve(r, NULL);
-    return bench_processor_time() - start;
+    return bench_time() - start;
 }
 
-/* The two in turn, so that what else the machine does meets both. `times` has room for both. Contact times differ a
- * little; where the step is prescribed the ratio is therefore that of times of a step. Steps that the method chooses
- * are part of what is saved. */
-static void measure(struct ready *full, struct ready *lean, int repeats, int prescribed_step, double *times,
-                    struct bench_omission *row)
+/* The two in turn, so that what else the machine does meets both. Contact times differ a little;
+ * where the step is prescribed the ratio is therefore that of times of a step. Steps that the
+ * method chooses are part of what is saved. `times` has room for both. */
+static void measure(struct ready *full, struct ready *lean, int repeats, int prescribed_step, double *times)
 {
     for (int i = 0; i < repeats; i++) {
         times[i] = time_once(full);
         times[repeats + i] = time_once(lean);
     }
-    row->seconds_full = bench_median(times, (size_t)repeats);
-    row->seconds_lean = bench_median(times + repeats, (size_t)repeats);
-    row->elements = full->result.elements;
-    row->steps_full = full->result.steps;
-    row->steps_lean = lean->result.steps;
-    row->ratio = row->seconds_full / row->seconds_lean;
-    if (prescribed_step) row->ratio *= (double)row->steps_lean / (double)row->steps_full;
+    const double seconds[] = {bench_median(times, (size_t)repeats), bench_median(times + repeats, (size_t)repeats)};
+    const double steps = prescribed_step ? (double)lean->result.steps / (double)full->result.steps : 1;
+    printf("%.4g,%.4g,%.4g\n", seconds[0], seconds[1], seconds[0] / seconds[1] * steps);
 }
 
-int bench_measure_omissions(int method, int repeats, struct bench_omission *rows, restitute_error *error)
+static void compare(const struct bench_method *method, const struct pair *p, int repeats, double *times)
 {
-    double *times = malloc(2 * (size_t)repeats * sizeof *times);
-    if (!times) return RESTITUTE_ERROR_MEMORY;
-    for (int i = 0; i < BENCH_OMISSIONS; i++) {
-        const struct pair *p = &pairs[i];
-        struct ready full = {0}, lean = {0};
-        rows[i] = (struct bench_omission){.method = method,
-                                          .left_out = p->left_out,
-                                          .full = p->full.name,
-                                          .lean = p->lean.name,
-                                          .seconds_full = NAN,
-                                          .seconds_lean = NAN,
-                                          .ratio = NAN};
-        int status = prepare(&bench_methods[method], &p->full, p->chosen, &full, error);
-        if (status >= 0) status = prepare(&bench_methods[method], &p->lean, p->chosen, &lean, error);
-        const int prescribed_step = !p->chosen && bench_methods[method].takes_time_step;
-        if (status >= 0) measure(&full, &lean, repeats, prescribed_step, times, &rows[i]);
-        rows[i].status = status < 0 ? status : RESTITUTE_OK;
-        release(&full);
-        release(&lean);
+    struct ready full = {0}, lean = {0};
+    restitute_error error = {0};
+    printf("%s,\"%s\",\"%s\",\"%s\",", method->name, p->left_out, p->full.name, p->lean.name);
+    int status = prepare(method, &p->full, p->chosen, &full, &error);
+    if (status >= 0) status = prepare(method, &p->lean, p->chosen, &lean, &error);
+    if (status >= 0)
+        measure(&full, &lean, repeats, !p->chosen && method->takes_time_step, times);
+    else
+        puts(",,");
+    if (status < 0) fprintf(stderr, "omissions: %s, %s: %s\n", method->name, p->left_out, error.message);
+    release(&full);
+    release(&lean);
+}
+
+int main(int count, char **words)
+{
+    const int repeats = count == 3 ? atoi(words[2]) : 0;
+    double *times = repeats > 0 ? malloc(2 * (size_t)repeats * sizeof *times) : NULL;
+    if (!times) return fprintf(stderr, "usage: omissions METHODS REPEATS\n"), 2;
+    puts("method,left_out,full,lean,seconds_full,seconds_lean,ratio");
+    for (char *name = strtok(words[1], ","); name; name = strtok(NULL, ",")) {
+        const struct bench_method *method = bench_method(name);
+        if (!method || !method->handle) return fprintf(stderr, "omissions: no method %s\n", name), 2;
+        for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
+            compare(method, &pairs[i], repeats, times);
     }
     free(times);
-    return RESTITUTE_OK;
 }
