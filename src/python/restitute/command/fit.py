@@ -4,7 +4,6 @@ import re
 from types import SimpleNamespace
 
 from restitute.command import options, problem
-from restitute.command.history import ending
 from restitute.command.options import Refusal, bounded, number, number_text, one_of, say, shown
 
 DONE, FAILED = 0, 1
@@ -47,7 +46,7 @@ def add(subparsers):
         ("name", "TEXT", "name in the material file; default that of the input", None),
         ("output", "FILE.json", "the material file, and all numbers in FILE.json.meta.json", None),
         ("figure", "FILE", "data, fit and residuals, .svg, .png or .pdf; needs matplotlib",
-         ending(".svg", ".png", ".pdf"))))
+         options.ending(".svg", ".png", ".pdf"))))
     group = parser.add_argument_group("The scene of all impacts")
     problem.add_fields(group, [name for name in _SCENE if name != "speed"])
     options.add(group, "partner", "rigid|same|FILE|NAME", "one of the two bodies deforms "
