@@ -115,8 +115,8 @@ class DropFit(Fit):
 
     def curves(self) -> dict[str, tuple]:
         """Speed, measured and fitted values, for `restitute.plot.fit`."""
-        return {name.replace("contact_", ""): (self.measured["normal_speed"], self.measured[name],
-                                               self.fitted[name]) for name in MEASURED}
+        speed = self.measured["normal_speed"]
+        return {name: (speed, self.measured[name], self.fitted[name]) for name in MEASURED}
 
 
 class DmaFit(Fit):

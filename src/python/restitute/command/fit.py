@@ -3,7 +3,6 @@
 import os
 
 from restitute.command import options, problem
-from restitute.command.history import ending
 from restitute.command.options import Refusal, bounded, number, one_of, say, shown
 
 DONE, FAILED = 0, 1
@@ -42,9 +41,9 @@ def add(subparsers):
             ("dma", "CURVE.csv", "instead: storage and loss modulus over frequency"),
             ("name", "TEXT", "name in the material file; default that of the input"),
             ("output", "FILE.json", "the material file, and all numbers in FILE.json.meta.json",
-             ending(".json")),
+             options.ending(".json")),
             ("figure", "FILE", "data, fit and residuals, .svg, .png or .pdf; needs matplotlib",
-             ending(".svg", ".png", ".pdf"))):
+             options.ending(".svg", ".png", ".pdf"))):
         options.add(group, *row)
     group = parser.add_argument_group("The scene of all impacts")
     problem.add_fields(group, [name for name in problem.SCENE if name != "speed"])
@@ -313,7 +312,7 @@ def _figure(arguments, fit):
 
     note = ",  ".join(f"{name} = {value:.4g}" for name, value in zip(fit.names[:6], fit.value))
     axes = plot.sheet(2, f"{arguments.name[:100]}: {fit.model}", note, f"restitute {version()} fit")
-    plot.fit(fit.curves(), dma="dma" in arguments.given, ax=axes)
+    plot.fit(fit, ax=axes)
     image = io.BytesIO()
     plot.save(axes, image, os.path.splitext(arguments.figure)[1][1:].lower())
     return image.getvalue()

@@ -149,6 +149,15 @@ def one_of(*words):
     return read
 
 
+def ending(*endings, stream=""):
+    """A reader of file names with one of these endings, in capitals or not; `stream` allows -."""
+    def read(text, place):
+        if text.lower().endswith(endings) or stream and text == "-":
+            return text
+        raise Refusal(f'{place} = "{text[:64]}": must end in {listed(endings)}{stream}')
+    return read
+
+
 def listed(words, last="or"):
     """The words as in a sentence: a, b or c."""
     words = list(words)

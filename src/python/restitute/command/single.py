@@ -45,7 +45,8 @@ def add(subparsers):
                 "speed=0.1:10:9:log,angle=5:85:9")
     options.add(group, "output", "FILE", "write here and not to standard output")
     options.add(group, "figure", "FILE", "with --grid, or --input with one or two columns that "
-                "vary: a figure of it, .svg, .png or .pdf; needs matplotlib")
+                "vary: a figure of it, .svg, .png or .pdf; needs matplotlib",
+                options.ending(".svg", ".png", ".pdf"))
     options.add_flag(group, "contours",
                      "with --figure: contours over both axes, the last one to the right")
     options.add(group, "threads", "N", "with --input and --grid: number of threads, 1 to 1024; "

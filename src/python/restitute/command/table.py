@@ -3,8 +3,7 @@
 import re
 
 from restitute.command import options, problem
-from restitute.command.history import ending
-from restitute.command.options import Refusal, bounded, emit, number_text, say, shown
+from restitute.command.options import Refusal, bounded, emit, ending, number_text, say, shown
 
 DONE, FAILED = 0, 1
 _BUILD = """Example:
