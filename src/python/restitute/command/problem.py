@@ -336,7 +336,10 @@ def _solid(given, place):
     if "modulus2" not in given and not (modulus1 != 0 if isinstance(modulus1, float) else
                                         modulus1.all()):
         raise _missing("modulus2", place)
-    return solids(modulus1, given.get("modulus2", INFINITY), given.get("viscosity", 0.0), ratio)
+    made = solids(modulus1, given.get("modulus2", INFINITY), given.get("viscosity", 0.0), ratio)
+    if made.ndim == 0:
+        made[()].name = "given moduli"  # for the scene in words
+    return made
 
 
 # -------------------------------------------------------------------------------------- materials
