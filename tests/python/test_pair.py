@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pairs of arrays of impacts: reference values, broadcasting, refusals, warnings, histories."""
 
+import ast
 import signal
 import threading
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -253,3 +255,13 @@ def test_members_of_a_result_are_listed_and_others_refused():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert result.limits() == [] and np.isnan(result.radius_ratio)
+
+
+def test_type_checkers_know_the_names_that_the_package_has():
+    module = ast.parse(Path(restitute.__file__).read_text())
+    block = next(node for node in module.body if isinstance(node, ast.If))
+    told = {(name.name, line.module.partition(".")[2])
+            for line in block.body for name in line.names}
+    home = {**restitute._HOME, "paper": "", "plot": ""}
+    assert told == set(home.items()) and set(home) | {"version"} == set(restitute.__all__)
+    assert all(getattr(restitute, name).__name__ == name for name in restitute._HOME)
