@@ -3,8 +3,8 @@
 # Installs the package, moves the tree, and builds and runs the programs of project/ against it:
 #   run.sh shared|static
 # From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS SANITIZED PYTHON, and
-# WITH_ FILES CONTACT CVODE TABLE TABLE_FILES BEM FIT COMMAND PYTHON FORTRAN OPENMP. The working directory is
-# used up.
+# WITH_ FILES CONTACT CVODE TABLE TABLE_FILES BEM FIT COMMAND PYTHON FORTRAN OPENMP. The
+# working directory is used up.
 set -eu
 
 kind=$1

@@ -4,7 +4,7 @@
 A test that needs a component of the library beside core, or a package beside NumPy:
 
     @pytest.mark.component("fit")
-    def test_a_sentence(): ...
+    def ...
 
     h5py = pytest.importorskip("h5py")
 """

@@ -14,8 +14,8 @@ skip() {
     exit 77
 }
 
-# The tools that requirements.txt pins, in the virtual environment tools: Debian 12 has no ruff and an
-# old auditwheel, and each version of ruff has rules of its own.
+# The tools that requirements.txt pins, in the virtual environment tools: Debian 12 has no ruff and
+# an old auditwheel, and each version of ruff has rules of its own.
 tools() {
     wanted=$SOURCE_DIR/tests/python/requirements.txt
     if ! cmp -s "$wanted" tools/requirements.txt; then

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The examples in the docstrings of the package."""
+"""The examples in the docstrings of the package, and those of docs/python.md."""
 
 import doctest
 import importlib
 import pkgutil
+from pathlib import Path
 
 import pytest
 
@@ -14,6 +15,7 @@ MODULES = ["restitute"] + [
     for module in pkgutil.walk_packages(restitute.__path__, "restitute.")
     if not module.name.endswith("__main__")
 ]
+OPTIONS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
 
 @pytest.mark.parametrize("name", MODULES)
@@ -25,5 +27,11 @@ def test_examples_of_docstrings_give_what_they_show(name, tmp_path, monkeypatch)
             raise
         pytest.skip(f"no {missing.name} here")
     monkeypatch.chdir(tmp_path)
-    options = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
-    assert doctest.testmod(module, optionflags=options).failed == 0
+    assert doctest.testmod(module, optionflags=OPTIONS).failed == 0
+
+
+def test_examples_of_the_page_give_what_they_show(tmp_path, monkeypatch):
+    pytest.importorskip("matplotlib").use("agg")
+    monkeypatch.chdir(tmp_path)
+    page = Path(__file__).parents[2] / "docs" / "python.md"
+    assert doctest.testfile(str(page), False, optionflags=OPTIONS).failed == 0

@@ -35,7 +35,9 @@ def _load(component):
     if path is None:
         raise errors.MissingComponent(f"the component {component} is not installed with this "
                                       "package")
-    return ffi.dlopen(os.path.join(os.path.dirname(__file__), path))
+    # Materials and threads of OpenMP may outlive the library at the interpreter's end: it stays.
+    return ffi.dlopen(os.path.join(os.path.dirname(__file__), path),
+                      ffi.RTLD_NOW | ffi.RTLD_NODELETE)
 
 
 core = _load("core")  # first, so that components find it loaded

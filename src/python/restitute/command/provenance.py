@@ -43,6 +43,14 @@ def series_of(path):
         return None
 
 
+def read_materials(places, values):
+    """Tell `files.Places` which material files the values of options read."""
+    for name in ("material", "partner"):
+        if values.get(name) not in (None, "rigid", "same"):
+            places.read(f"--{name}", values[name])
+            places.read("prony_csv", series_of(values[name]))
+
+
 def of_file(path, **members):
     """An input file with its fingerprint."""
     with open(path, "rb") as file:
