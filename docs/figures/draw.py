@@ -13,7 +13,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 BLUE, RED, GREY = "#1f6f8b", "#c4451c", "#888888"
-plt.rcParams.update({"svg.hashsalt": "restitute", "font.size": 11, "grid.color": "#dddddd"})
+plt.rcParams.update({"svg.hashsalt": "restitute", "svg.fonttype": "none", "font.size": 11,
+                     "grid.color": "#dddddd"})
 
 
 def save(figure, path):
