@@ -101,6 +101,7 @@ DIMENSIONLESS = ("chi", "psi", "delta1", "gamma", "delta2")
 SOLID = ("modulus1", "youngs_modulus", "shore_a", "modulus2", "viscosity", "poisson_ratio",
          "time_shift")
 SI = tuple(name for name in FIELDS if name not in DIMENSIONLESS)
+SCENE = tuple(name for name in SI if name not in SOLID)
 WORDS = ("material", "partner", "rotation_blocked")  # columns that are no numbers
 # What a row must have; an empty cell of another column means that it is not given.
 NEVER_EMPTY = (*DIMENSIONLESS, "radius", "speed", "angle", "friction")
