@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pairs of arrays of impacts: reference values, broadcasting, refusals, warnings, histories."""
 
+import ast
 import signal
 import threading
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -136,9 +138,12 @@ def test_failed_impacts_are_nan_and_say_why():
     assert result.status.tolist() == [0, -3, -3]
     assert result.words().tolist() == ["", result.message(1), "angle = 95: must be in [0, 90)"]
     assert result.message(1).startswith("friction = -1: must be")
+    counts = []
     with pytest.raises(DomainError) as caught:
-        pair(RUBBER, **{**BALL, "friction": np.where(np.arange(500) == 321, -1, 0.1)})
-    assert caught.value.index == (321,) and caught.value.status == -3
+        pair(RUBBER, **{**BALL, "friction": np.where(np.arange(5000) == 5, -1, 0.1)},
+             progress=lambda *count: counts.append(count))
+    assert caught.value.index == (5,) and caught.value.status == -3
+    assert counts[-1][0] < 5000  # the rest is not solved
 
 
 def test_limits_that_are_passed_are_counted_in_one_warning_each():
@@ -250,3 +255,13 @@ def test_members_of_a_result_are_listed_and_others_refused():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert result.limits() == [] and np.isnan(result.radius_ratio)
+
+
+def test_type_checkers_know_the_names_that_the_package_has():
+    module = ast.parse(Path(restitute.__file__).read_text())
+    block = next(node for node in module.body if isinstance(node, ast.If))
+    told = {(name.name, line.module.partition(".")[2])
+            for line in block.body for name in line.names}
+    home = {**restitute._HOME, "paper": "", "plot": ""}
+    assert told == set(home.items()) and set(home) | {"version"} == set(restitute.__all__)
+    assert all(getattr(restitute, name).__name__ == name for name in restitute._HOME)

@@ -101,10 +101,10 @@ class ContactLaw:
         return self._times(_library.contact.restitute_contact_time_step_limit, mass, radius, speed)
 
     def _times(self, function, *numbers):
-        numbers = np.broadcast_arrays(*(np.asarray(number, float) for number in numbers))
-        times, one = np.empty(numbers[0].shape), ffi.new("double *")
+        arrays = np.broadcast_arrays(*(np.asarray(number, float) for number in numbers))
+        times, one = np.empty(arrays[0].shape), ffi.new("double *")
         for place in np.ndindex(times.shape):
-            call(function, self._handle, *(number[place] for number in numbers), one)
+            call(function, self._handle, *(array[place] for array in arrays), one)
             times[place] = one[0]
         return times[()]
 

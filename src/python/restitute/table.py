@@ -13,6 +13,7 @@ import numpy as np
 
 from restitute import _library, errors
 from restitute._library import call, ffi
+from restitute.collisions import Body, after, records_of
 from restitute.executor import map_chunks
 from restitute.impact import LIMITS
 from restitute.materials import Material
@@ -275,6 +276,46 @@ class Table:
             self._warn(normal, sliding, contact)
         return TablePairs(ez.reshape(shape)[()], ex.reshape(shape)[()],
                           lambda: None if contact else self.flags(normal_speed, sliding_speed))
+
+    def collide(self, first: Body, second: Body,
+                contact: TableContact | None = None) -> tuple[Body, Body, TablePairs]:
+        """What two bodies that touch, or many pairs of them, do: `restitute.collide` by the table.
+
+        Parameters
+        ----------
+        first, second : Body
+            Of any size, with the table's chi. What deforms is what the table was built for. Half
+            the size of solid spheres is 32 times the speed in the table.
+        contact : TableContact, optional
+            By default the table's own; the size is that of the bodies.
+
+        Raises
+        ------
+        DomainError
+            The first pair that does not touch or that separates, or that the table does not serve.
+
+        Warns
+        -----
+        ModelLimitWarning
+            How many impacts are beyond the range of the table, whose end is then taken.
+        """
+        shape, bodies = records_of(first, second, {})
+        count = int(np.prod(shape))
+        ez, ex, error, beyond = np.empty(count), np.empty(count), ffi.new("restitute_error *"), 0
+        function, arrays = _library.table.restitute_table_collide, [
+            *(_library.pointer(body, "restitute_body[]") for body in bodies),
+            _library.pointer(ez), _library.pointer(ex)]
+        for i in range(count):
+            status = function(self._handle, _struct(contact), *(one + i for one in arrays), error)
+            beyond += error.message[0] != b"\0"
+            if status < 0:
+                place = f"{list(map(int, np.unravel_index(i, shape)))}: " if shape else ""
+                raise _library.exception(status, place + _library.message_of(error))
+        if beyond:
+            _library.warn(f"{beyond} of {count} impacts are outside the table's range, whose ends "
+                          "are taken", errors.ModelLimitWarning)
+        return (*after((first, second), bodies, shape, []),
+                TablePairs(ez.reshape(shape)[()], ex.reshape(shape)[()], lambda: None))
 
     def beyond(self, normal_speed: Any, contact: TableContact | None = None) -> Any:
         """Whether normal speeds (m/s) are outside the range, whose end is then taken."""

@@ -22,7 +22,8 @@ _SYNONYMS = {"mu": "friction", "diameter": "radius, half of it", "nu": "poisson-
              "rho": "density", "omega": "spin", "eta": "viscosity", "e": "youngs-modulus",
              "young": "youngs-modulus", "hardness": "shore-a", "shore": "shore-a", "v": "speed",
              "r": "radius", "m": "mass", "g": "modulus1", "shear-modulus": "modulus1",
-             "wall": "partner", "file": "input", "plot": "figure", "theta": "angle"}
+             "wall": "partner", "temperature": "time-shift, a factor of the relaxation times",
+             "file": "input", "plot": "figure", "theta": "angle"}
 
 
 class Refusal(Exception):

@@ -101,6 +101,7 @@ DIMENSIONLESS = ("chi", "psi", "delta1", "gamma", "delta2")
 SOLID = ("modulus1", "youngs_modulus", "shore_a", "modulus2", "viscosity", "poisson_ratio",
          "time_shift")
 SI = tuple(name for name in FIELDS if name not in DIMENSIONLESS)
+SCENE = tuple(name for name in SI if name not in SOLID)
 WORDS = ("material", "partner", "rotation_blocked")  # columns that are no numbers
 # What a row must have; an empty cell of another column means that it is not given.
 NEVER_EMPTY = (*DIMENSIONLESS, "radius", "speed", "angle", "friction")
@@ -335,7 +336,10 @@ def _solid(given, place):
     if "modulus2" not in given and not (modulus1 != 0 if isinstance(modulus1, float) else
                                         modulus1.all()):
         raise _missing("modulus2", place)
-    return solids(modulus1, given.get("modulus2", INFINITY), given.get("viscosity", 0.0), ratio)
+    made = solids(modulus1, given.get("modulus2", INFINITY), given.get("viscosity", 0.0), ratio)
+    if made.ndim == 0:
+        made[()].name = "given moduli"  # for the scene in words
+    return made
 
 
 # -------------------------------------------------------------------------------------- materials

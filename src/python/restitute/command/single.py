@@ -244,7 +244,7 @@ def _json(arguments, impact, result, record):
         "ez", "ex", "error_ez", "error_ex", *_UNITS, "work", "merging_bound", "speed_ratio",
         "radius_ratio", "displacement_ratio", "dundurs_beta", "elements", "steps", "terms_merged"))
     about.update(flags=_flags(result.flags), method=result.method, status=remark(result))
-    return provenance.text({"meta": record, "result": about,
+    return provenance.text({"meta": record, "scene": impact.describe(), "result": about,
                             "numbers": members(impact.numbers(), _NUMBERS),
                             "energy": members(result.ledger, dir(result.ledger))})
 

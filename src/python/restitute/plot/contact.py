@@ -79,44 +79,31 @@ def table(table: Any, *, ax: Any = None) -> Any:
     return ax
 
 
-def fit(fit: Any, frequency: Any = None, storage: Any = None, loss: Any = None,
-        temperature: Any = None, *, ax: Any = None) -> Any:
+def fit(fit: Any, *, ax: Any = None) -> Any:
     """Data as points and a fit as lines, and the residuals, in two panels.
 
     Parameters
     ----------
-    fit : restitute.fitting.DropFit or DmaFit
-    frequency, storage, loss, temperature : array_like, shape (n,)
-        Of a DmaFit: the data, as `fit_dma` took them, but shear moduli (Pa) in any case.
+    fit : restitute.fits.DropFit or DmaFit
 
     Returns
     -------
     ax : ndarray of two Axes
     """
-    ax, dma = axes_of(ax, 2), frequency is not None
-    if dma:
-        x = np.asarray(frequency, float)
-        if temperature is not None:
-            x = x * fit.shift[[int(np.argmin(abs(fit.temperature - t))) for t in temperature]]
-        moduli = fit.material.storage_modulus, fit.material.loss_modulus
-        data = {"storage": storage, "loss": loss}
-        series = {name: (data[name], of(2 * np.pi * x)) for name, of in zip(data, moduli)}
-    else:
-        x = fit.measured["normal_speed"]
-        series = {name: (fit.measured[name], fit.fitted[name]) for name in fit.fitted}
-    for k, (name, (measured, fitted)) in enumerate(series.items()):
-        known = np.argsort(x, kind="stable")
-        known = known[~np.isnan(np.asarray(measured)[known])]
-        if not known.size:
+    ax, curves = axes_of(ax, 2), fit.curves()
+    dma = "storage" in curves
+    for k, (name, columns) in enumerate(curves.items()):
+        known = np.argsort(columns[0], kind="stable")
+        x, measured, fitted = (one[known[~np.isnan(columns[1][known])]] for one in columns)
+        if not x.size:
             continue
-        at, measured, fitted = x[known], np.asarray(measured)[known], fitted[known]
-        relative, points = name not in TITLES, look(k, len(series), linestyle="")
+        relative, points = name not in TITLES, look(k, len(curves), linestyle="")
         if dma or not relative:
-            ax[0].plot(at, measured, **points)
-            ax[0].plot(at, fitted, **look(k, len(series), marker=""))
+            ax[0].plot(x, measured, **points)
+            ax[0].plot(x, fitted, **look(k, len(curves), marker=""))
         rest = measured / fitted - 1 if relative else measured - fitted
         words = f"{name.replace('_', ' ')}{' (relative)' if relative and not dma else ''}"
-        ax[1].plot(at, rest, label=words, **points)
+        ax[1].plot(x, rest, label=words, **points)
     ax[1].axhline(0, color="#444444", linewidth=0.8)
     if not dma and fit.flags & 8:  # RESTITUTE_FIT_FLAG_LIMITS
         ax[1].plot([], [], "x", color=RED, label="some impacts are\nbeyond a limit\nof the model")
