@@ -114,6 +114,9 @@ def test_keywords_that_do_not_fit_together_are_refused(keywords, words):
     ({"speed": [1, 2, 0]}, r"impacts\[2\]: speed = 0: must be finite and > 0"),
     ({"angle": [[0, 90]]}, r"impacts\[0, 1\]: angle = 90: must be in \[0, 90\)"),
     ({"density": np.nan}, "^density = nan: must be"),
+    ({"angle": [np.inf, 0]}, r"impacts\[0\]: angle = inf: must be"),
+    ({"speed": 1e999, "angle": 0.0}, "^speed = inf: must be finite"),
+    ({"radius2": 1, "density2": -1}, r"^density2 = -1: must be > 0 \(inf: held fast\)"),
     ({"density": None}, "^density or mass is missing"),
     ({"friction": [0, -0.1]}, r"impacts\[1\]: friction = -0.1: must be"),
     ({"radius": "wide"}, "radius = 'wide': must be a number"),
@@ -126,8 +129,20 @@ def test_keywords_that_do_not_fit_together_are_refused(keywords, words):
 def test_values_out_of_range_are_refused_with_value_place_and_range(keywords, words):
     with pytest.raises(DomainError, match=words):
         pair(RUBBER, **{**BALL, **keywords})
-    with pytest.raises(DomainError):
-        pair(psi=1, delta1=1, delta2=0)
+
+
+@pytest.mark.parametrize("keywords, words", [
+    ({"delta2": [1, 0], "gamma": 1}, r"impacts\[1\]: delta2 = 0: must be in \(0, 1e12\]"),
+    ({"delta2": 1, "gamma": np.inf}, "gamma = inf: must be finite and > 0 beside delta2"),
+    ({"delta2": 1, "delta1": 0}, "delta1 = 0: must be finite and > 0 beside delta2"),
+    ({"delta1": 1, "gamma": -4}, "gamma = -4: must be")])
+def test_numbers_of_the_paper_out_of_range_are_refused(keywords, words):
+    with pytest.raises(DomainError, match=words):
+        pair(psi=1, **keywords)
+    impacts = Impacts(psi=1, **keywords)
+    assert impacts.numbers().shape == impacts.shape
+    with pytest.raises(TypeError, match="delta2 needs delta1 or gamma beside it, one of them"):
+        Impacts(psi=1, delta2=1)
 
 
 def test_failed_impacts_are_nan_and_say_why():
