@@ -2,6 +2,7 @@
 """The binding against the C compiler: sizes, offsets, enumerators, functions, shared structs."""
 
 import os
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -14,9 +15,10 @@ from restitute._library import ffi
 
 INCLUDE = Path(os.environ.get("SOURCE_DIR", Path(__file__).parents[2])) / "include"
 HEADERS = [name for name in ("core", *_library._COMPONENTS) if _library.available(name)]
-TYPES = [name for name in ffi.list_types()[0] if name.startswith("restitute_")]
-STRUCTS = [name for name in TYPES if ffi.typeof(name).kind == "struct" and ffi.typeof(name).fields]
-ENUMS = [name for name in TYPES if ffi.typeof(name).kind == "enum"]
+TEXT = {name: (INCLUDE / "restitute" / f"{name.replace('core', 'restitute')}.h").read_text()
+        for name in (*HEADERS, "status")}
+ENUMS = re.findall(r"^typedef enum (restitute_\w+) \{", "\n".join(TEXT.values()), re.M)
+STRUCTS = re.findall(r"^typedef struct (restitute_\w+) \{", "\n".join(TEXT.values()), re.M)
 
 
 def facts():
@@ -42,8 +44,8 @@ def same_types():
 
 def test_every_size_offset_type_and_enumerator_is_that_of_the_compiler(tmp_path):
     compiler = shutil.which(os.environ.get("CC", "cc"))
-    if not compiler or not INCLUDE.is_dir():
-        pytest.skip("no C compiler or no headers here")
+    if not compiler:
+        pytest.skip("no C compiler here")
     known = list(facts())
     assert len(STRUCTS) > 20 and len(ENUMS) >= 3 and len(known) > 500
     lines = [f"#include <restitute/{name.replace('core', 'restitute')}.h>" for name in HEADERS]
@@ -59,13 +61,11 @@ def test_every_size_offset_type_and_enumerator_is_that_of_the_compiler(tmp_path)
 
 def functions():
     """Prototypes of the headers: names that are followed by a parenthesis, behind a since-tag."""
-    for name in HEADERS:
-        text = (INCLUDE / "restitute" / f"{name.replace('core', 'restitute')}.h").read_text()
+    for name, text in TEXT.items():
         for part in text.split("\nRESTITUTE_SINCE_0_1")[1:]:
             yield name, part.split("(")[0].split()[-1].lstrip("*")
 
 
-@pytest.mark.skipif(not INCLUDE.is_dir(), reason="no headers here")
 def test_every_function_of_the_headers_is_in_its_library():
     known = list(functions())
     assert len(known) > 80

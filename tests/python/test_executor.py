@@ -6,6 +6,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 
@@ -35,15 +36,21 @@ def die_once(task):
     number, folder = task
     mark = os.path.join(folder, str(number))
     if number == -1 or (number == 3 and not os.path.exists(mark)):
-        open(mark, "w").close()
+        with open(mark, "a") as file:
+            file.write("x")
         os.kill(os.getpid(), signal.SIGKILL)
     return number * number
 
 
 def test_results_come_in_order_with_progress():
     counts = []
+
+    def square(x):
+        time.sleep(0.01 * (x % 3 == 0))  # others overtake it
+        return x * x
+
     with ThreadPoolExecutor(3) as pool:
-        squares = list(map_chunks(lambda x: x * x, range(40), pool,
+        squares = list(map_chunks(square, range(40), pool,
                                   progress=lambda *count: counts.append(count)))
     assert squares == [x * x for x in range(40)]
     assert counts == [(i, 40) for i in range(1, 41)]
@@ -69,7 +76,10 @@ def test_failures_keep_their_place_and_words():
         with pytest.raises(DomainError, match=r"impacts\[7, 2\]: friction = -1: must be") as caught:
             pair(RUBBER, **{**BALL, "friction": friction}, executor=pool, chunk=4)
         assert caught.value.index == (7, 2)
-        result = pair(RUBBER, **{**BALL, "friction": friction}, executor=pool, on_error="nan")
+        result = pair(RUBBER, **{**BALL, "friction": friction}, executor=pool, on_error="nan",
+                      energies=True, chunk=4)
+        told = [result.message(i, k) != "" for i in range(20) for k in range(3)]
+        assert np.flatnonzero(told).tolist() == [7 * 3 + 2]
     assert np.argwhere(np.isnan(result.ez)).tolist() == [[7, 2]]
     assert "friction = -1" in result.message(7, 2)
 
@@ -93,6 +103,7 @@ def test_a_chunk_whose_worker_dies_is_sent_again_a_few_times(tmp_path):
         assert list(done) == [0, 1, 4, 9, 16, 25]
     with processes(1) as pool, pytest.raises(BrokenExecutor):
         list(map_chunks(die_once, [(-1, tmp_path)], pool, retries=1))
+    assert (tmp_path / "-1").read_text() == "xx"
     with ThreadPoolExecutor(1) as pool, pytest.raises(ZeroDivisionError):
         list(map_chunks(lambda x: 1 // x, [1, 0, 1], pool))
 

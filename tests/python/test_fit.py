@@ -154,13 +154,16 @@ def test_a_known_series_comes_back_from_its_moduli():
     solid = restitute.Material.prony([1e-3, 1e-1], [5e6, 1e6], 2e5)
     frequency = np.geomspace(1e-2, 1e4, 61)
     omega = 2 * np.pi * frequency
-    fit = restitute.fit_dma(frequency, solid.storage_modulus(omega), solid.loss_modulus(omega))
+    moduli = np.array([solid.storage_modulus(omega), solid.loss_modulus(omega)])
     # exact data: the last search stops at 1e-6 of the moduli
-    assert fit.relaxation_time == pytest.approx([1e-3, 1e-1], rel=1e-4)
-    assert fit.modulus == pytest.approx([5e6, 1e6], rel=1e-4)
-    assert fit.equilibrium_modulus == pytest.approx(2e5, rel=1e-4)
-    assert fit.is_good and fit.temperature.size == 0 and np.isnan(fit.wlf).all()
-    assert fit.material.series.modulus == pytest.approx(fit.modulus)
+    for fit in (restitute.fit_dma(frequency, *moduli),
+                restitute.fit_dma(frequency, *(3 * moduli), tension=True)):  # E = 3 G
+        series = fit.material.series
+        assert series.relaxation_time == pytest.approx([1e-3, 1e-1], rel=1e-4)
+        assert fit.value == pytest.approx([2e5, 5e6, 1e6], rel=1e-4)
+        assert fit.is_good and fit.temperature.size == 0 and np.isnan(fit.wlf).all()
+        for (_, measured, fitted), given in zip(fit.curves().values(), moduli):
+            assert measured == pytest.approx(given) and fitted == pytest.approx(given, rel=1e-4)
     with pytest.raises(restitute.DomainError, match=r"row\[1\].*loss.*-3"):
         restitute.fit_dma(frequency[:3], [1, 2, 3], [1, -3, 1])
 
@@ -173,3 +176,13 @@ def test_shifts_of_temperatures_come_back():
     fit = restitute.fit_dma(*np.transpose(rows), reference_temperature=20)
     assert fit.temperature.tolist() == [20, 40]
     assert fit.shift == pytest.approx([1, 0.1], rel=1e-3)
+    reduced = fit.curves()["storage"][0]
+    assert reduced[25:] == pytest.approx(0.1 * reduced[:25], rel=1e-3)
+
+
+def test_a_fit_prints_its_constants_with_their_intervals(rubber):
+    speed, pair = drops(rubber, 6)
+    text = str(restitute.fit_drop_test(ez=pair.ez, speed=speed, **BALL, known={"modulus1": 1e6}))
+    assert "  modulus1_pa                1e+06         known" in text
+    assert "  viscosity_pa_s             300" in text and "correlations" in text
+    assert text.endswith("impacts solved")

@@ -136,9 +136,12 @@ def test_failed_impacts_are_nan_and_say_why():
     assert result.status.tolist() == [0, -3, -3]
     assert result.words().tolist() == ["", result.message(1), "angle = 95: must be in [0, 90)"]
     assert result.message(1).startswith("friction = -1: must be")
+    counts = []
     with pytest.raises(DomainError) as caught:
-        pair(RUBBER, **{**BALL, "friction": np.where(np.arange(500) == 321, -1, 0.1)})
-    assert caught.value.index == (321,) and caught.value.status == -3
+        pair(RUBBER, **{**BALL, "friction": np.where(np.arange(5000) == 5, -1, 0.1)},
+             progress=lambda *count: counts.append(count))
+    assert caught.value.index == (5,) and caught.value.status == -3
+    assert counts[-1][0] < 5000  # the rest is not solved
 
 
 def test_limits_that_are_passed_are_counted_in_one_warning_each():

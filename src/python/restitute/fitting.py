@@ -12,128 +12,19 @@ import numpy as np
 
 from restitute import _library, errors
 from restitute._library import call, ffi
+from restitute.fits import MEASURED, DmaFit, DropFit
 from restitute.materials import Material
 from restitute.scenes import Impacts
 
-__all__ = ["DmaFit", "DropFit", "fit_dma", "fit_drop_test"]
+__all__ = ["fit_dma", "fit_drop_test"]
 
 #: Models and their constants; those of prony go on with term1, term2, ...
 MODELS = {"elastic": ("modulus",), "kelvin_voigt": ("modulus1", "viscosity"),
           "standard_solid": ("modulus1", "modulus2", "viscosity"),
           "maxwell": ("modulus", "viscosity"), "prony": ("equilibrium",)}
 LOSSES = ("squares", "huber", "cauchy")
-MEASURED = ("ez", "ex", "contact_time")
 _MEMBERS = ("confidence", "reference_temperature", "starts", "seed", "threads")
 GRAVITY = 9.80665  # m/s^2
-
-
-class _Fit:
-    remarks: list[str]
-    flags: int
-    material: Material
-
-    def _fill(self, struct, model, name):
-        self.remarks, self.flags = _library.text(struct.remarks).splitlines(), struct.flags
-        self.model, self.rms = model, struct.rms
-        self.material = Material(struct.material, name=name, model=model)
-
-    @property
-    def is_good(self) -> bool:
-        """The data follow the model and determine its constants, and the search has ended."""
-        bad = ("UNDETERMINED", "MISFIT", "UNFINISHED")
-        return not any(self.flags & getattr(_library.fit, f"RESTITUTE_FIT_FLAG_{word}")
-                       for word in bad)
-
-
-class DropFit(_Fit):
-    """A fit of m measured impacts.
-
-    Attributes
-    ----------
-    material : Material
-        The fitted solid.
-    names : list of str
-        Its n constants, e.g. "modulus1_pa", then "friction" and "shift_..." where fitted.
-    value, low, high : ndarray, shape (n,)
-        And their intervals. 0 or inf: no such bound; both the value: known.
-    correlation : ndarray, shape (n, n)
-        Of the logarithms.
-    remarks : list of str
-        What the data leave open, and what the model misses.
-    flags : int
-        Bits of `restitute_fit_flag`; `is_good` sums them up.
-    values, rank, impacts : int
-        Measured values; combinations of constants that they determine; impacts solved.
-    rms, noise, condition : float
-        Of the weighted residuals; noise is nan if no degree of freedom is left.
-    measured : dict of ndarray, shape (m,)
-        "ez", "ex", "contact_time" (s), nan where there is none, and "normal_speed" (m/s).
-    """
-
-    def __init__(self, struct: Any, model: str, fitter: Any, measured: dict, name: str):
-        self._fill(struct, model, name)
-        n = struct.constants
-        self.names = [_library.text(struct.name[k]) for k in range(n)]
-        self.value, self.low, self.high = (
-            np.array(list(one)[:n]) for one in (struct.value, struct.low, struct.high))
-        self.correlation = np.array([list(struct.correlation[k])[:n] for k in range(n)])
-        self.values, self.rank, self.impacts = struct.values, struct.rank, struct.impacts
-        self.noise, self.condition = struct.noise, struct.condition
-        self.measured, self._fitter, self._fitted = measured, fitter, dict[str, np.ndarray]()
-
-    @property
-    def fitted(self) -> dict[str, np.ndarray]:
-        """What the solid gives for each impact, measured or not: arrays of shape (m,)."""
-        if not self._fitted:
-            arrays = [np.empty(len(self.measured["ez"])) for _ in MEASURED]
-            self._fitter.call(_library.fit.restitute_fitter_values, self._fitter.handle,
-                              *map(_library.pointer, arrays))
-            self._fitted = dict(zip(MEASURED, arrays))
-        return self._fitted
-
-    @property
-    def residuals(self) -> dict[str, np.ndarray]:
-        """Measured minus fitted, likewise."""
-        return {name: self.measured[name] - self.fitted[name] for name in MEASURED}
-
-    def __repr__(self):
-        lines = [f"{name} = {value:.6g} ({low:.6g} to {high:.6g})"
-                 for name, value, low, high in zip(self.names, self.value, self.low, self.high)]
-        return "\n".join([f"<restitute.DropFit {self.model}", *lines, *self.remarks]) + ">"
-
-
-class DmaFit(_Fit):
-    """A Prony series from moduli.
-
-    Attributes
-    ----------
-    material, remarks, flags, is_good
-        As of `DropFit`.
-    equilibrium_modulus : float
-        Pa.
-    relaxation_time, modulus : ndarray, shape (n,)
-        s and Pa.
-    temperature, shift : ndarray, shape (m,)
-        Distinct temperatures and their a_T, by which times are multiplied.
-    wlf : (float, float)
-        C1 and C2, given, or fitted to the shifts; nan: none.
-    rms, worst : float
-        Of the relative residuals.
-    """
-
-    def __init__(self, struct: Any, name: str):
-        self._fill(struct, "prony", name)
-        terms, count = struct.terms, struct.temperatures
-        self.equilibrium_modulus, self.worst = struct.equilibrium_modulus, struct.worst
-        self.relaxation_time = np.array(list(struct.relaxation_time)[:terms])
-        self.modulus = np.array(list(struct.modulus)[:terms])
-        self.temperature = np.array(list(struct.temperature)[:count])
-        self.shift = np.array(list(struct.shift)[:count])
-        self.wlf = (struct.wlf_c1, struct.wlf_c2)
-
-    def __repr__(self):
-        head = f"<restitute.DmaFit of {self.modulus.size} terms, rms {self.rms:.3g}"
-        return "\n".join([head, *self.remarks]) + ">"
 
 
 class _Fitter:
@@ -141,7 +32,7 @@ class _Fitter:
     that Python runs handlers of signals there. What they raise ends the call and is raised here."""
 
     def __init__(self, points, options, kept):
-        self._raised, self._kept = None, kept
+        self._raised, self._kept, self.options = None, kept, options
         self._ask = ffi.callback("int(void *)", lambda _: 0, error=1, onerror=self._note)
         options.interrupted = self._ask
         handle = ffi.new("restitute_fitter **")
@@ -257,7 +148,7 @@ def fit_drop_test(*, ez: Any = np.nan, ex: Any = np.nan, contact_time: Any = np.
     call(_library.fit.restitute_fitter_result, fitter.handle, result)
     measured = {what: points[what] for what in MEASURED}
     measured["normal_speed"] = records["normal_speed"]
-    return DropFit(result, model, fitter, measured, name)
+    return DropFit(result, model, name, fitter, measured)
 
 
 def _heights(drop, rebound, ratio, speed, ez):
@@ -378,8 +269,11 @@ def fit_dma(frequency: Any, storage: Any, loss: Any, temperature: Any = None, *,
     >>> import numpy as np, restitute
     >>> rubber, f = restitute.Material.maxwell(1e6, 1e4), np.geomspace(0.1, 1000, 25)
     >>> omega = 2 * np.pi * f
-    >>> fit_dma(f, rubber.storage_modulus(omega), rubber.loss_modulus(omega)).modulus.round()
-    array([1000000.])
+    >>> print(fit_dma(f, rubber.storage_modulus(omega), rubber.loss_modulus(omega)))
+      equilibrium_modulus_pa     0
+      modulus_pa[tau=0.01]       1e+06
+    <BLANKLINE>
+      Prony series of 1 terms, relative residuals: rms ..., largest ...
     """
     columns = [frequency, storage, loss] + ([] if temperature is None else [temperature])
     arrays = [np.array(one, float).ravel() for one in np.broadcast_arrays(*columns)]
@@ -390,4 +284,4 @@ def fit_dma(frequency: Any, storage: Any, loss: Any, temperature: Any = None, *,
     pointers = [*map(_library.pointer, arrays), *([ffi.NULL] if temperature is None else [])]
     _library.interruptible(_library.fit.restitute_dma_fit, arrays[0].size, *pointers, settings,
                            result)
-    return DmaFit(result, name)
+    return DmaFit(result, name, bool(settings.tension), arrays)

@@ -90,8 +90,8 @@ def history(material: Any = None, *, samples: int = 500, method: str | None = No
     Examples
     --------
     >>> run = history(psi=0.5, delta1=1, gamma=1, samples=200, method="sync")
-    >>> run.time.shape, run.result.ez.round(2), run.indentation.max().round(2)
-    ((200,), 0.78, 0.79)
+    >>> print(run.time.shape, run.result.ez.round(2), run.indentation.max().round(2))
+    (200,) 0.78 0.79
     """
     settings, impact = split(keywords)
     impacts = Impacts(material, **impact)

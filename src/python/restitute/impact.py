@@ -131,8 +131,8 @@ def solve(impacts: Impacts, *, method: str = "euler", energies: bool = False,
           progress: Callable[[int, int], Any] | None = None, **settings: Any) -> Pairs:
     """Solve impacts; keywords and result are those of `pair`.
 
-    >>> solve(Impacts(psi=2, delta1=1, gamma=1)).ez.round(2)
-    0.78
+    >>> solve(Impacts(psi=[2], delta1=1, gamma=1)).ez.round(2)
+    array([0.78])
     """
     if on_error not in ("raise", "nan"):
         raise errors.DomainError(f"on_error = {on_error!r}: must be raise or nan")

@@ -128,8 +128,8 @@ class Material:
 
         Examples
         --------
-        >>> Material.prony([1e-4, 1e-2], [5e6, 1e6], 1e6).relaxation_modulus(1e-3).round(-4)
-        1910000.0
+        >>> Material.prony([1e-4, 1e-2], [5e6, 1e6], 1e6).relaxation_modulus([1e-3]).round(-4)
+        array([1910000.])
         """
         pair = np.broadcast_arrays(np.atleast_1d(relaxation_time), np.atleast_1d(modulus))
         tau, g = (np.array(values, float) for values in pair)
@@ -206,8 +206,8 @@ class Material:
     def storage_modulus(self, frequency: Any) -> Any:
         """G'(omega) in Pa at angular frequencies >= 0 (rad/s), in their shape; nan elsewhere.
 
-        >>> Material.maxwell(1e6, 1e3).storage_modulus(1e3).round(3)
-        500000.0
+        >>> Material.maxwell(1e6, 1e3).storage_modulus([1e3]).round(3)
+        array([500000.])
         """
         omega, sine, _ = self._sine_cosine(frequency)
         return (self.series.equilibrium_modulus + sine**2 @ self.series.modulus + 0 * omega)[()]
@@ -337,10 +337,10 @@ def shear_modulus(*, youngs: Any = None, shore_a: Any = None, poisson_ratio: Any
 
     Examples
     --------
-    >>> shear_modulus(youngs=210e9, poisson_ratio=0.3).round(-7)
-    80770000000.0
-    >>> shear_modulus(shore_a=60).round(-4)
-    1200000.0
+    >>> shear_modulus(youngs=[2.6e9], poisson_ratio=0.3)
+    array([1.e+09])
+    >>> shear_modulus(shore_a=[60, 70]).round(-4)
+    array([1200000., 1840000.])
     """
     if (youngs is None) == (shore_a is None):
         raise TypeError("shear_modulus needs youngs or shore_a, one of them")

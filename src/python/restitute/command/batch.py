@@ -239,9 +239,6 @@ class _Batch:
                 for name, i in self.cases.known.items()}
 
     def _figure_axes(self):
-        if self.figure == "-" or not self.figure.lower().endswith((".svg", ".png", ".pdf")):
-            raise Refusal(f"--figure = {self.figure}: must be a file that ends in .svg, .png or "
-                          ".pdf")
         files.check(self.figure, "--figure")
         options.need("matplotlib", "--figure")
         from restitute import plot

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`restitute history`: one impact over time, its events, and fields of pressure and traction."""
 from restitute.command import options, problem, single
-from restitute.command.options import Refusal, listed, number_text
+from restitute.command.options import Refusal, number_text
 
 # Of the columns: unit in SI, what their name ends in for a dimensionless impact, and what that is.
 _COLUMNS = {
@@ -41,20 +41,11 @@ def add(subparsers):
     options.add(group, "output", "FILE", "write the CSV here and not to standard output")
     options.add(group, "events", "FILE", "write the log of events here, as CSV (.csv, or - for "
                 "standard output) or HDF5 (.h5, .hdf5); takes the method cvode",
-                ending(".csv", ".h5", ".hdf5", stream="; - is standard output"))
+                options.ending(".csv", ".h5", ".hdf5", stream="; - is standard output"))
     options.add(group, "fields", "FILE", "with --method bem: pressure, traction and stick map at "
-                "nine times, as HDF5 (.h5, .hdf5)", ending(".h5", ".hdf5"))
+                "nine times, as HDF5 (.h5, .hdf5)", options.ending(".h5", ".hdf5"))
     options.add(group, "figure", "FILE", "a figure of it, .svg, .png or .pdf; needs matplotlib",
-                ending(".svg", ".png", ".pdf"))
-
-
-def ending(*endings, stream=""):
-    """A reader of file names with one of these endings, in capitals or not."""
-    def read(text, place):
-        if text.lower().endswith(endings) or stream and text == "-":
-            return text
-        raise Refusal(f'{place} = "{text[:64]}": must end in {listed(endings)}{stream}')
-    return read
+                options.ending(".svg", ".png", ".pdf"))
 
 
 def run(arguments):

@@ -27,15 +27,15 @@ def run(arguments):
     """List the materials, or show one."""
     import restitute
 
-    what, name = arguments.what, arguments.material
-    options.one_of("list", "show")(what, "restitute materials")
-    if (what == "show") != (name is not None):
-        raise Refusal("restitute materials show needs the name of a material" if name is None else
-                      f'unexpected argument "{name[:100]}"; see --help')
-    if what == "show":
+    name = arguments.material
+    if options.one_of("list", "show")(arguments.what, "materials: action") == "show":
+        if name is None:
+            raise Refusal("materials show: the name of a material is missing; see --help")
         word = problem.read_material(name, "material")
         emit(_page(restitute.material(word, temperature=arguments.temperature)))
         return 0
+    if name is not None:
+        raise Refusal(f'unexpected argument "{name[:100]}"; see --help')
     lines = [f"{'name':18} {'kg/m^3':>8} {'G(0), Pa':>10} {'G(inf), Pa':>10}  {'nu':5}  full name"]
     for word in problem.names():
         material = problem.material_of(word)

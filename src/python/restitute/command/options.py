@@ -22,7 +22,8 @@ _SYNONYMS = {"mu": "friction", "diameter": "radius, half of it", "nu": "poisson-
              "rho": "density", "omega": "spin", "eta": "viscosity", "e": "youngs-modulus",
              "young": "youngs-modulus", "hardness": "shore-a", "shore": "shore-a", "v": "speed",
              "r": "radius", "m": "mass", "g": "modulus1", "shear-modulus": "modulus1",
-             "wall": "partner", "file": "input", "plot": "figure", "theta": "angle"}
+             "wall": "partner", "temperature": "time-shift, a factor of the relaxation times",
+             "file": "input", "plot": "figure", "theta": "angle"}
 
 
 class Refusal(Exception):
@@ -146,6 +147,15 @@ def one_of(*words):
             raise Refusal(f'{place} = "{text[:64]}": must be {listed(words)}'
                           f"{did_you_mean(text, words)}")
         return text
+    return read
+
+
+def ending(*endings, stream=""):
+    """A reader of file names with one of these endings, in capitals or not; `stream` allows -."""
+    def read(text, place):
+        if text.lower().endswith(endings) or stream and text == "-":
+            return text
+        raise Refusal(f'{place} = "{text[:64]}": must end in {listed(endings)}{stream}')
     return read
 
 

@@ -101,6 +101,7 @@ DIMENSIONLESS = ("chi", "psi", "delta1", "gamma", "delta2")
 SOLID = ("modulus1", "youngs_modulus", "shore_a", "modulus2", "viscosity", "poisson_ratio",
          "time_shift")
 SI = tuple(name for name in FIELDS if name not in DIMENSIONLESS)
+SCENE = tuple(name for name in SI if name not in SOLID)
 WORDS = ("material", "partner", "rotation_blocked")  # columns that are no numbers
 # What a row must have; an empty cell of another column means that it is not given.
 NEVER_EMPTY = (*DIMENSIONLESS, "radius", "speed", "angle", "friction")
@@ -293,30 +294,26 @@ def keywords(values, place):
 
 
 def _complete(given, place):
-    """The material of moduli, and the density of a sphere that is of its material.
+    """The material of moduli, and the density of a sphere that is of a material.
 
     Against a rigid partner the sphere is what is of the material, unless its density is given.
     """
     moduli = [name for name in SOLID[:-1] if name in given]
     if "material" in given and moduli:
         raise Refusal(f"a material file and {place(moduli[0])} are both given: use one")
-    if "material" not in given:
-        given["material"] = _solid({name: given.pop(name) for name in moduli}, place)
     for name in ("radius", "speed", "friction"):
         if name not in given:
             raise _missing(name, place)
-    material = given["material"]
-    if not given.keys() & {"density", "mass"} and isinstance(material, str):
-        density = material_of(material).density
-        if density > 0 and given.get("partner", "rigid") == "rigid":
-            given["density"] = density
-    elif (not given.keys() & {"density", "mass"} and getattr(material, "ndim", 1)
-          and isinstance(material[0], str)):
-        density = [material_of(name).density for name in material]
-        if not all(value > 0 for value in density):  # of one of the rows
+    if "material" not in given:
+        given["material"] = _solid({name: given.pop(name) for name in moduli}, place)
+    elif not given.keys() & {"density", "mass"}:
+        one = isinstance(given["material"], str)
+        densities = [material_of(name).density for name in ([given["material"]] if one else
+                                                            given["material"])]
+        if not all(density > 0 for density in densities):
             raise Refusal(f"{place('density')} or {place('mass')} is missing: must be > 0 (the "
                           "material gives no density)")
-        given["density"] = density
+        given["density"] = densities[0] if one else densities
 
 
 def _missing(name, place):
@@ -339,7 +336,10 @@ def _solid(given, place):
     if "modulus2" not in given and not (modulus1 != 0 if isinstance(modulus1, float) else
                                         modulus1.all()):
         raise _missing("modulus2", place)
-    return solids(modulus1, given.get("modulus2", INFINITY), given.get("viscosity", 0.0), ratio)
+    made = solids(modulus1, given.get("modulus2", INFINITY), given.get("viscosity", 0.0), ratio)
+    if made.ndim == 0:
+        made[()].name = "given moduli"  # for the scene in words
+    return made
 
 
 # -------------------------------------------------------------------------------------- materials

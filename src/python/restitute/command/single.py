@@ -45,7 +45,8 @@ def add(subparsers):
                 "speed=0.1:10:9:log,angle=5:85:9")
     options.add(group, "output", "FILE", "write here and not to standard output")
     options.add(group, "figure", "FILE", "with --grid, or --input with one or two columns that "
-                "vary: a figure of it, .svg, .png or .pdf; needs matplotlib")
+                "vary: a figure of it, .svg, .png or .pdf; needs matplotlib",
+                options.ending(".svg", ".png", ".pdf"))
     options.add_flag(group, "contours",
                      "with --figure: contours over both axes, the last one to the right")
     options.add(group, "threads", "N", "with --input and --grid: number of threads, 1 to 1024; "
@@ -243,7 +244,7 @@ def _json(arguments, impact, result, record):
         "ez", "ex", "error_ez", "error_ex", *_UNITS, "work", "merging_bound", "speed_ratio",
         "radius_ratio", "displacement_ratio", "dundurs_beta", "elements", "steps", "terms_merged"))
     about.update(flags=_flags(result.flags), method=result.method, status=remark(result))
-    return provenance.text({"meta": record, "result": about,
+    return provenance.text({"meta": record, "scene": impact.describe(), "result": about,
                             "numbers": members(impact.numbers(), _NUMBERS),
                             "energy": members(result.ledger, dir(result.ledger))})
 

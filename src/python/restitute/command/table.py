@@ -3,8 +3,7 @@
 import re
 
 from restitute.command import options, problem
-from restitute.command.history import ending
-from restitute.command.options import Refusal, bounded, emit, number_text, say, shown
+from restitute.command.options import Refusal, bounded, emit, ending, number_text, say, shown
 
 DONE, FAILED = 0, 1
 _BUILD = """Example:
@@ -93,52 +92,47 @@ def run(arguments):
     return {"build": _build, "info": _tell, "query": _query}[action](arguments)
 
 
-def _load(path):
-    import restitute
-
-    return restitute.Table.load(path)
-
-
 # ------------------------------------------------------------------------------------------ build
 
 
 def _build(arguments):
     import restitute
 
-    _check_output(arguments)
+    _check_paths(arguments)
     values, place = problem.values_of(arguments), problem.place_of_options(arguments)
     values.pop("speed", None)
     if not values:
         raise Refusal("no table is described: give --material, or moduli, and a contact; see "
                       "--help")
     keywords = problem.keywords({**values, "speed": 1.0}, place)  # the library does not use it
-    scene = problem.impacts(keywords, place).describe()
+    scene = re.sub(r" speed .* degrees,", "", problem.impacts(keywords, place).describe())
     _check_places(arguments, values)
-    settings = {"threads": arguments.threads or 0, "tolerance": arguments.tolerance or 1e-5,
-                "max_impacts": arguments.max_impacts, "time_limit": arguments.time_limit}
+    settings = {name: getattr(arguments, name) for name in
+                ("tolerance", "max_impacts", "time_limit") if name in arguments.given}
     if arguments.speed:
         settings["speeds"] = arguments.speed
-    table = restitute.Table.build(**keywords, **settings)
+    table = restitute.Table.build(**keywords, **settings, threads=arguments.threads or 0)
     table.save(arguments.output)
-    info, scene = table.info, re.sub(r" speed .* degrees,", "", scene)
-    emit(f"{shown(scene)}\n{shown(arguments.output)}: errors {info.error_ez:.2g} (ez), {info.error_ex:.2g} (ex), "
-         f"verified at {info.checks} places; {info.impacts} impacts solved, "
-         f"{info.bytes / 1e6:.3g} MB\n" + "; ".join(table.limits) + "\n" * bool(table.limits))
+    info = table.info
+    emit(f"{shown(scene)}\n{shown(arguments.output)}: errors {info.error_ez:.2g} (ez), "
+         f"{info.error_ex:.2g} (ex), verified at {info.checks} places; {info.impacts} impacts "
+         f"solved, {info.bytes / 1e6:.3g} MB\n" + "".join(f"{limit}\n" for limit in table.limits))
     if arguments.figure:
         _draw(table, arguments.figure)
     return FAILED if max(info.error_ez, info.error_ex) > info.tolerance else DONE
 
 
-def _check_output(arguments):
+def _check_paths(arguments):
     from restitute.command import files
 
-    if arguments.output is None:
+    output, figure = arguments.output, arguments.figure
+    if output is None:
         raise Refusal("--output is missing: the table's file")
-    if files.is_stream(arguments.output):
-        raise Refusal(f"--output = {arguments.output}: a table needs a file")
-    files.check(arguments.output, "--output")
-    if arguments.figure:
-        files.check(arguments.figure, "--figure")
+    if files.is_stream(output):
+        raise Refusal(f"--output = {output}: a table needs a file")
+    files.check(output, "--output")
+    if figure:
+        files.check(figure, "--figure")
         options.need("matplotlib", "--figure")
         if arguments.speed and arguments.speed[0] >= arguments.speed[1]:
             raise Refusal("--figure: a table of one speed has no curves")
@@ -176,27 +170,31 @@ def _draw(table, path):
 
 
 def _tell(arguments):
-    table = _load(arguments.file)
+    import restitute
+
+    table = restitute.Table.load(arguments.file)
     emit(_as_json(table.info) if arguments.format == "json" else _as_text(table))
     return DONE
 
 
 def _as_text(table):
     info = table.info
-    delta1 = "" if info.gamma != info.gamma else \
-        f"{'delta1':16} {info.delta1[0]:.6g} to {info.delta1[1]:.6g}\n{'gamma':16} {info.gamma:.6g}\n"
-    rows = (("friction", f"{info.friction:g}"),
-            ("radius, mass", f"{info.radius:g} m, {info.mass:g} kg (effective)"),
-            ("tolerance", f"{info.tolerance:g}"),
-            ("error", f"{info.error_ez:.2g} (ez), {info.error_ex:.2g} (ex), verified at "
-             f"{info.checks} places"),
-            ("limits", "; ".join(table.limits) or "none is passed"),
-            ("impacts solved", f"{info.impacts}"),
-            ("nodes", f"{info.speeds} speeds, {info.stick_cells} + {info.slip_cells} cells of psi; "
-             f"{info.bytes / 1e6:.3g} MB"),
-            ("built by", shown(info.version)))
-    return (f"{'speed':16} {info.speed[0]:.6g} to {info.speed[1]:.6g} m/s\n{'chi':16} "
-            f"{info.chi:.6g}\n{delta1}" + "".join(f"{name:16} {text}\n" for name, text in rows))
+    rows = [("speed", f"{info.speed[0]:.6g} to {info.speed[1]:.6g} m/s"),
+            ("chi", f"{info.chi:.6g}")]
+    if info.gamma == info.gamma:
+        rows += [("delta1", f"{info.delta1[0]:.6g} to {info.delta1[1]:.6g}"),
+                 ("gamma", f"{info.gamma:.6g}")]
+    rows += [("friction", f"{info.friction:g}"),
+             ("radius, mass", f"{info.radius:g} m, {info.mass:g} kg (effective)"),
+             ("tolerance", f"{info.tolerance:g}"),
+             ("error", f"{info.error_ez:.2g} (ez), {info.error_ex:.2g} (ex), verified at "
+              f"{info.checks} places"),
+             ("limits", "; ".join(table.limits) or "none is passed"),
+             ("impacts solved", f"{info.impacts}"),
+             ("nodes", f"{info.speeds} speeds, {info.stick_cells} + {info.slip_cells} cells of "
+              f"psi; {info.bytes / 1e6:.3g} MB"),
+             ("built by", shown(info.version))]
+    return "".join(f"{name:16} {text}\n" for name, text in rows)
 
 
 def _as_json(info):
@@ -217,7 +215,9 @@ def _as_json(info):
 
 
 def _query(arguments):
-    table = _load(arguments.file)
+    import restitute
+
+    table = restitute.Table.load(arguments.file)
     for name in _SPEEDS:
         if arguments.input is not None and name in arguments.given:
             raise Refusal(f"{arguments.given[name]}: not with --input, whose columns give the "

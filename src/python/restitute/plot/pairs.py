@@ -2,7 +2,8 @@
 """Restitution pairs as lines and maps, with what lies beyond the limits of the model."""
 from __future__ import annotations
 
-from types import SimpleNamespace
+import os
+from typing import Any
 
 import matplotlib
 import numpy as np
@@ -10,69 +11,79 @@ import numpy as np
 from restitute.plot.sheet import RED, STYLE, axes_of, legend, look
 
 QUANTITIES = {"ez": "$e_z$", "ex": "$e_x$"}
+TITLES = {"ez": "Normal restitution", "ex": "Tangential restitution"}
 # bits of restitute_result.flags: the name in a legend, the hatching of a map
-LIMITS = {1: ("v / cₛ too large", "\\\\\\"), 2: ("a / R too large", "///"), 4: ("slide too long", "---"),
-          8: ("unlike bodies", "|||")}
-_LETTERS = {"chi": "χ", "psi": "ψ", "delta1": "δ₁", "delta2": "δ₂", "gamma": "γ", "friction": "friction μ",
-            "speed_m_s": "speed v (m/s)", "angle_deg": "angle from the normal θ (degrees)",
-            "time_shift": "time shift", "normal_speed_m_s": "normal speed (m/s)"}
-_UNITS = {"_kg_m3": "kg/m³", "_kg_m2": "kg m²", "_rad_s": "rad/s", "_m_s": "m/s", "_pa_s": "Pa s", "_deg": "degrees",
-          "_pa": "Pa", "_kg": "kg", "_hz": "Hz", "_m": "m", "_s": "s"}
-MOST_CURVES, MOST_MARKS = 15, 30
+_LIMITS = {1: ("v / cₛ too large", "\\\\\\"), 2: ("a / R too large", "///"),
+           4: ("slide too long", "---"), 8: ("unlike bodies", "|||")}
+_LETTERS = {"chi": "χ", "psi": "ψ", "delta1": "δ₁", "delta2": "δ₂", "gamma": "γ",
+            "friction": "friction μ", "speed_m_s": "speed v (m/s)",
+            "angle_deg": "angle from the normal θ (degrees)"}
+_UNITS = {"_kg_m3": "kg/m³", "_kg_m2": "kg m²", "_rad_s": "rad/s", "_m_s": "m/s", "_pa_s": "Pa s",
+          "_deg": "degrees", "_pa": "Pa", "_kg": "kg", "_hz": "Hz", "_m": "m", "_s": "s"}
+_MOST_CURVES, _MOST_MARKS = 15, 30
 
 
 def label(column: str) -> str:
     """A column as an axis names it.
 
     >>> from restitute import plot
-    >>> plot.label("radius1_m"), plot.label("psi")
-    ('radius1 (m)', 'ψ')
+    >>> plot.label("radius2_m"), plot.label("psi")
+    ('radius2 (m)', 'ψ')
     """
-    if column in _LETTERS:
-        return _LETTERS[column]
     for ending, unit in _UNITS.items():
-        if column.lower().endswith(ending):
+        if column.endswith(ending) and column not in _LETTERS:
             return f"{column[:-len(ending)].replace('_', ' ')} ({unit})"
-    return column.replace("_", " ")
+    return _LETTERS.get(column, column.replace("_", " "))
 
 
-def _logarithmic(values):
-    """Over more than two decades."""
-    return np.nanmin(values) > 0 and np.nanmax(values) >= 100 * np.nanmin(values)
+def limits_of(flags: int) -> str:
+    """The limits that are passed, in words."""
+    return ", ".join(name for bit, (name, _) in _LIMITS.items() if flags & bit)
 
 
-def mark_limits(ax, x, y, flags, total=None) -> None:
+def _scale(ax, axis, values, log):
+    """A logarithmic axis if it is wanted, or over more than two decades."""
+    low, high = np.nanmin(values), np.nanmax(values)
+    if log or (log is None and 0 < low <= high / 100):
+        getattr(ax, f"set_{axis}scale")("log")
+    return low, high
+
+
+def mark_limits(ax: Any, x: Any, y: Any, flags: Any) -> None:
     """Cross out the points whose flags are not 0, and count them in the legend."""
     beyond = (np.asarray(flags) != 0) & np.isfinite(y)
     if beyond.any():
-        count = f"{beyond.sum()} of {total or np.isfinite(y).sum()}"
-        ax.plot(np.broadcast_to(x, beyond.shape)[beyond], y[beyond], linestyle="", marker="x", markersize=4.5, color=RED,
-                markeredgewidth=0.9, zorder=5, label=f"beyond a limit\nof the model:\n{count}")
+        words = f"beyond a limit\nof the model:\n{beyond.sum()} of {np.isfinite(y).sum()}"
+        ax.plot(x[beyond], y[beyond], linestyle="", marker="x", markersize=4.5, color=RED,
+                markeredgewidth=0.9, zorder=5, label=words)
 
 
-def shade_limits(ax, x, y, flags) -> None:
-    """Shade where flags are set, one hatching a limit, over a grid of x and y."""
-    for bit, (name, hatch) in LIMITS.items():
+def shade_limits(ax: Any, x: Any, y: Any, flags: Any) -> None:
+    """Shade where flags are set, one hatching a limit, over a grid as of `contour`."""
+    for bit, (name, hatch) in _LIMITS.items():
         beyond = ((np.asarray(flags) & bit) != 0).astype(float)
         if beyond.any():
             with matplotlib.rc_context(STYLE):  # the colour of hatches
                 ax.contourf(x, y, beyond, levels=[0.5, 1.5], colors=[RED], alpha=0.1, zorder=1)
-                ax.contourf(x, y, beyond, levels=[0.5, 1.5], colors="none", hatches=[hatch], zorder=1)
-                ax.fill_between([], [], facecolor="#f5e6e6", edgecolor=STYLE["hatch.color"], linewidth=0, hatch=hatch,
-                                label=name)
+                ax.contourf(x, y, beyond, levels=[0.5, 1.5], colors="none", hatches=[hatch],
+                            zorder=1)
+                ax.fill_between([], [], facecolor="#f5e6e6", edgecolor=STYLE["hatch.color"],
+                                linewidth=0, hatch=hatch, label=name)
 
 
-def lines(x, pairs, quantity="ez", *, curves=None, key="", xlabel="normal speed (m/s)", log=None, ax=None):
-    """e_z or e_x over x, e.g. e_z(v). Points beyond a limit of the model are crossed out.
+def lines(x: Any, pairs: Any, quantity: str = "ez", *, curves: Any = None, key: str = "",
+          xlabel: str = "speed (m/s)", log: bool | None = None, ax: Any = None) -> Any:
+    """e_z or e_x over x, e.g. e_x(v) for some angles. Points beyond a limit are crossed out.
 
     Parameters
     ----------
-    x : array_like, shape (n,), (n, 1) or (n, m)
+    x : array_like
+        Of a shape that broadcasts to that of the pairs, e.g. what `restitute.pair` was given.
     pairs
-        Of `restitute.pair`: `ez`, `ex`, `flags` of shape (n,), or (n, m) for m curves. NaN leaves a gap.
+        Of `restitute.pair`, or anything with `ez`, `ex` and `flags`; nan leaves a gap.
     quantity : {"ez", "ex"}
-    curves : sequence of m
-        What the curves differ in, for the legend.
+    curves : array_like
+        Broadcasts likewise; points that are equal in it belong to one curve. Numbers or texts.
     key : str
         Title of the legend.
     log : bool
@@ -84,19 +95,17 @@ def lines(x, pairs, quantity="ez", *, curves=None, key="", xlabel="normal speed 
     """
     ax = axes_of(ax)
     y = np.asarray(getattr(pairs, quantity), float)
-    x = np.asarray(x, float)
-    x = np.broadcast_to(x[:, None] if x.ndim < y.ndim else x, y.shape).reshape(len(y), -1)
-    flags = np.broadcast_to(getattr(pairs, "flags", 0), y.shape).reshape(x.shape)
-    y = y.reshape(x.shape)
-    count = y.shape[1]
-    names = [""] * count if curves is None else [n if isinstance(n, str) else f"{n:.4g}" for n in np.ravel(curves)]
-    for k in range(count):
-        order = np.argsort(x[:, k], kind="stable")
-        style = {**look(k, count), **({"marker": ""} if len(x) > MOST_MARKS else {})}
-        ax.plot(x[order, k], y[order, k], label=names[k], **style)
+    given = (x, 0 if curves is None else curves, getattr(pairs, "flags", 0))
+    x, of, flags = (np.broadcast_to(values, y.shape).ravel() for values in given)
+    y, (names, of) = y.ravel(), np.unique(of, return_inverse=True)
+    for k, name in enumerate(names):
+        rows = np.flatnonzero(of.ravel() == k)
+        rows = rows[np.argsort(x[rows], kind="stable")]
+        text = os.path.splitext(os.path.basename(name))[0] if _words(names) else f"{name:.4g}"
+        style = look(k, len(names), **({"marker": ""} if len(rows) > _MOST_MARKS else {}))
+        ax.plot(x[rows], y[rows], label=None if curves is None else text, **style)
     mark_limits(ax, x, y, flags)
-    if _logarithmic(x) if log is None else log:
-        ax.set_xscale("log")
+    _scale(ax, "x", x, log)
     ax.set(xlabel=xlabel, ylabel=QUANTITIES[quantity])
     if quantity == "ez":
         ax.set_ylim(bottom=0)
@@ -104,27 +113,28 @@ def lines(x, pairs, quantity="ez", *, curves=None, key="", xlabel="normal speed 
     return ax
 
 
-def levels_of(z, noise=1e-4):
-    """5 to 13 levels at an interval of 1, 2 or 5 times a power of ten; None if z does not vary."""
+def _levels(z, noise):
+    """5 to 13 levels at an interval of 1, 2 or 5 times a power of ten; none if z does not vary."""
     low, high = np.nanmin(z), np.nanmax(z)
     if not high - low > max(noise, 1e-4):
-        return None
+        return []
     power = 10 ** np.floor(np.log10((high - low) / 13))
     interval = next(f * power for f in (1, 2, 5, 10) if high - low <= 13 * f * power)
-    return interval * np.arange(np.ceil(low / interval), np.floor(high / interval) + 1)
+    return interval * (np.arange(np.ceil(low / interval), np.floor(high / interval) + 1) + 0.0)
 
 
-def map(x, y, pairs, quantity="ex", *, xlabel="speed (m/s)", ylabel="angle from the normal (degrees)", log=(None, None),
-        noise=1e-4, ax=None):
-    """e_z or e_x as contours over x and y, e.g. e_x(v, angle). What lies beyond the limits is shaded.
+def map(x: Any, y: Any, pairs: Any, quantity: str = "ex", *, xlabel: str = "speed (m/s)",
+        ylabel: str = "angle from the normal (degrees)", log: Any = (None, None),
+        noise: float = 1e-4, ax: Any = None) -> Any:
+    """e_z or e_x as contours over x and y, e.g. e_x(v, angle). What is beyond a limit is shaded.
 
     Parameters
     ----------
-    x : array_like, shape (n,) or (n, 1)
-    y : array_like, shape (m,)
-    pairs
-        `ez`, `ex`, `flags` of shape (n, m).
-    log : tuple of bool
+    x, y : array_like
+        Of shapes that broadcast to that of the pairs, which are all nodes of a grid.
+    pairs, quantity
+        As in `lines`.
+    log : pair of bool
         Logarithmic axes; by default those of more than two decades.
     noise : float
         Values that differ by less are the same.
@@ -134,23 +144,23 @@ def map(x, y, pairs, quantity="ex", *, xlabel="speed (m/s)", ylabel="angle from 
     ax : Axes
     """
     ax = axes_of(ax)
-    z = np.ma.masked_invalid(np.asarray(getattr(pairs, quantity), float))
-    x, y = np.broadcast_arrays(np.reshape(x, (-1, 1)).astype(float), np.reshape(y, (1, -1)).astype(float))
-    for axis, values, chosen in (("x", x, log[0]), ("y", y, log[1])):
-        if _logarithmic(values) if chosen is None else chosen:
-            getattr(ax, f"set_{axis}scale")("log")
-    ax.set(xlim=(x.min(), x.max()), ylim=(y.min(), y.max()), xlabel=xlabel, ylabel=ylabel)
-    levels = levels_of(z, noise)
-    if levels is None:
-        text = f"restitution = {0.5 * (z.min() + z.max()):.4g} everywhere"
-        ax.text(0.5, 0.5, text, ha="center", transform=ax.transAxes)
-    else:
-        levels[abs(levels) < 1e-9] = 0  # no "-0" on a line
-        lines = ax.contour(x, y, z, levels=levels, colors="#3b518b", linewidths=np.where(levels == 0, 2.2, 1.1),
-                           zorder=2)
-        for text in ax.clabel(lines, fmt="%g", fontsize=8, zorder=3):
+    z = np.asarray(getattr(pairs, quantity), float)
+    (x, i), (y, j) = (np.unique(np.broadcast_to(v, z.shape), return_inverse=True) for v in (x, y))
+    nodes, full, flags = (j.ravel(), i.ravel()), *np.zeros((2, len(y), len(x)))
+    full[nodes] = z.ravel()
+    flags[nodes] = np.broadcast_to(getattr(pairs, "flags", 0), z.shape).ravel()
+    ax.set(xlim=_scale(ax, "x", x, log[0]), ylim=_scale(ax, "y", y, log[1]), xlabel=xlabel,
+           ylabel=ylabel)
+    levels = _levels(full, noise)
+    if len(levels):
+        drawn = ax.contour(x, y, np.ma.masked_invalid(full), levels=levels, colors="#3b518b",
+                           linewidths=np.where(levels == 0, 2.2, 1.1), zorder=2)
+        for text in ax.clabel(drawn, fmt="%g", fontsize=8, zorder=3):
             text.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85})
-    shade_limits(ax, x, y, np.broadcast_to(getattr(pairs, "flags", 0), z.shape))
+    else:
+        ax.text(0.5, 0.5, f"restitution = {np.nanmean(full):.4g} everywhere", ha="center",
+                transform=ax.transAxes)
+    shade_limits(ax, x, y, flags.astype(int))
     legend(ax)
     return ax
 
@@ -159,14 +169,16 @@ def _words(values):
     return np.asarray(values).dtype.kind not in "fiu"
 
 
-def grid_axes(columns, contours: bool = False, ordered: bool = False) -> tuple:
-    """Which columns are the axis and the curves of a figure of rows: the two that vary, more values along x.
+def grid_axes(columns: dict, contours: bool = False, ordered: bool = False) -> tuple:
+    """Which columns are the axis and the curves of a figure of rows: those two that vary.
 
     Parameters
     ----------
     columns : dict of str to array_like, shape (rows,)
+    contours : bool
+        The curves are the second axis.
     ordered : bool
-        The last column that varies is x, whichever has more values.
+        The last column is the axis and the first one the curves, whichever has more values.
 
     Returns
     -------
@@ -181,41 +193,41 @@ def grid_axes(columns, contours: bool = False, ordered: bool = False) -> tuple:
     >>> plot.grid_axes({"psi": [1, 2, 3], "gamma": [1, 1, 1]})
     ('psi', None)
     """
-    distinct = {name: len(np.unique(values)) for name, values in columns.items()}
-    varying = sorted((name for name in columns if distinct[name] > 1), key=lambda name: (_words(columns[name]),
-                                                                                         -distinct[name]))
-    if ordered:
-        varying = [name for name in reversed(columns) if distinct[name] > 1]
-    varying = varying or list(columns)[:1]
-    if len(varying) > 2 or not varying or (distinct[varying[0]] < 2 and len(columns[varying[0]]) != 1):
-        raise ValueError(f"{'more than two' if len(varying) > 2 else 'no'} columns vary: must be one or two")
+    count = {name: len(np.unique(values)) for name, values in columns.items()}
+    varying = list(columns)[::-1] if ordered else [name for name in columns if count[name] > 1]
+    if len(varying) not in (1, 2):
+        raise ValueError(f"{'more than two' if varying else 'no'} columns vary: must be one or two")
+    if not ordered:
+        varying.sort(key=lambda name: (_words(columns[name]), -count[name]))
     x, curves = (*varying, None)[:2]
     if _words(columns[x]):
         raise ValueError(f"{x} has no numbers to be an axis: vary another one too")
-    if contours and curves is None:
+    if curves is None and contours:
         raise ValueError("contours: needs two columns or axes that vary")
-    if not contours and curves and distinct[curves] > MOST_CURVES:
-        raise ValueError(f"{distinct[curves]} curves of {curves}: must be at most {MOST_CURVES}; or take contours")
+    if curves and not contours and count[curves] > _MOST_CURVES:
+        raise ValueError(f"{count[curves]} curves of {curves}: must be at most {_MOST_CURVES}; or "
+                         "take contours")
     if contours:
         if _words(columns[curves]):
             raise ValueError("contours: needs two columns of numbers that vary")
-        rows, nodes = len(columns[x]), distinct[x] * distinct[curves]
-        different = len(set(zip(np.asarray(columns[x]).tolist(), np.asarray(columns[curves]).tolist())))
-        if nodes != rows or different != rows or min(distinct[x], distinct[curves]) < 3:
-            raise ValueError(f"contours: {rows} rows are no full grid of {distinct[x]} by {distinct[curves]}, each node "
+        rows, n, m = len(columns[x]), count[x], count[curves]
+        nodes = set(zip(*(np.asarray(columns[name]).tolist() for name in (x, curves))))
+        if min(n, m) < 3 or n * m != rows or len(nodes) != rows:
+            raise ValueError(f"contours: {rows} rows are no full grid of {n} by {m}, each node "
                              "once and both at least 3")
     return x, curves
 
 
-def grid(columns, pairs, *, axes=None, contours=False, log=(), noise=1e-4, ax=None):
+def grid(columns: dict, pairs: Any, *, axes: Any = None, contours: bool = False, log: Any = (),
+         noise: float = 1e-4, ax: Any = None) -> Any:
     """e_z and e_x of the rows of a batch or grid, in two panels.
 
     Parameters
     ----------
     columns : dict of str to array_like, shape (rows,)
-        By canonical name; words in a column of texts.
+        By canonical name; numbers or texts.
     pairs
-        `ez`, `ex`, `flags` of shape (rows,); NaN where a row failed.
+        `ez`, `ex`, `flags` of shape (rows,); nan where a row failed.
     axes : tuple
         The column along x and that of the curves, or None; by default from `grid_axes`.
     contours : bool
@@ -230,36 +242,21 @@ def grid(columns, pairs, *, axes=None, contours=False, log=(), noise=1e-4, ax=No
     ax : ndarray of two Axes
     """
     ax = axes_of(ax, 2)
-    x, curves = axes or grid_axes(columns, contours)
     columns = {name: np.asarray(values) for name, values in columns.items()}
+    x, curves = axes or grid_axes(columns, contours)
     scale = [True if name in log else None for name in (x, curves)]
-    distinct, of = np.unique(columns[curves], return_inverse=True) if curves else ([None], np.zeros(len(columns[x]), int))
-    for panel, quantity, title in zip(ax, ("ez", "ex"), ("Normal restitution", "Tangential restitution")):
-        panel.set_title(title)
+    for panel, (quantity, title) in zip(ax, TITLES.items()):
         if contours:
-            xs, at = np.unique(columns[x], return_inverse=True)
-            full = {name: np.empty((len(xs), len(distinct))) for name in (quantity, "flags")}
-            for name, values in full.items():
-                values[at, of] = getattr(pairs, name)
-            map(xs, distinct, SimpleNamespace(**{**full, "flags": full["flags"].astype(int)}), quantity,
-                xlabel=label(x), ylabel=label(curves), log=scale, noise=noise, ax=panel)
-        elif quantity == "ez" and {x, curves} == {"speed_m_s", "angle_deg"}:  # of the normal speed alone
+            map(columns[x], columns[curves], pairs, quantity, xlabel=label(x),
+                ylabel=label(curves), log=scale, noise=noise, ax=panel)
+        elif quantity == "ez" and {x, curves} == {"speed_m_s", "angle_deg"}:
             normal = columns["speed_m_s"] * np.cos(np.radians(columns["angle_deg"]))
-            lines(normal, pairs, "ez", xlabel="normal speed v cos θ (m/s)", log=scale[x != "speed_m_s"], ax=panel)
+            lines(normal, pairs, "ez", xlabel="normal speed v cos θ (m/s)", ax=panel,
+                  log=scale[x != "speed_m_s"])
         else:
-            _curves(panel, columns[x], of, pairs, quantity, distinct, label(x), scale[0], label(curves) if curves else "")
+            lines(columns[x], pairs, quantity, curves=columns.get(curves),
+                  key=label(curves) if curves else "", xlabel=label(x), log=scale[0], ax=panel)
+        panel.set_title(title)
     if ax[0].get_legend():
         ax[0].get_legend().remove()
     return ax
-
-
-def _curves(ax, x, of, pairs, quantity, names, xlabel, log, key):
-    """Rows as columns of one array: a curve that has fewer rows than another ends with NaN."""
-    rows = [np.flatnonzero(of == k) for k in range(len(names))]
-    index = np.full((max(len(r) for r in rows), len(rows)), -1)
-    for k, r in enumerate(rows):
-        index[:len(r), k] = r
-    whole = SimpleNamespace(flags=np.where(index < 0, 0, np.asarray(pairs.flags)[index]),
-                            **{quantity: np.where(index < 0, np.nan, np.asarray(getattr(pairs, quantity))[index])})
-    words = None if names[0] is None else [str(n).rsplit("/", 1)[-1].split(".")[0] if _words(names) else n for n in names]
-    lines(np.where(index < 0, np.nan, x[index]), whole, quantity, curves=words, key=key, xlabel=xlabel, log=log, ax=ax)

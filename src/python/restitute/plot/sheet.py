@@ -6,29 +6,36 @@ import io
 import os
 import textwrap
 import warnings
+from typing import Any
 
 import matplotlib
 import numpy as np
 from matplotlib import cm
 from matplotlib.figure import Figure
 
+RED = "#b03030"  # limits, and what is beyond them
 # Text stays text in SVG; a fixed salt gives the same identifiers every time.
-STYLE = {"svg.fonttype": "none", "svg.hashsalt": "restitute", "pdf.fonttype": 42, "font.family": "DejaVu Sans",
-         "mathtext.fontset": "dejavusans", "font.size": 10, "axes.titlesize": 11, "axes.spines.top": False,
-         "axes.spines.right": False, "axes.edgecolor": "#444444", "axes.grid": True, "grid.color": "#dddddd",
-         "grid.linewidth": 0.6, "legend.frameon": False, "lines.linewidth": 1.5, "hatch.linewidth": 0.6, "hatch.color": "#cf9f9f",
-         "text.usetex": False, "figure.dpi": 100, "savefig.dpi": 150}
-_METADATA = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}
-DASHES = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (6, 2, 1.5, 2)), (0, (6, 2, 1.5, 2, 1.5, 2)))
-MARKS = "os^vDPX"
-RED = "#b03030"
+STYLE = {"svg.fonttype": "none", "svg.hashsalt": "restitute", "pdf.fonttype": 42,
+         "font.family": "DejaVu Sans", "mathtext.fontset": "dejavusans", "text.usetex": False,
+         "font.size": 10, "axes.titlesize": 11, "legend.fontsize": 9, "legend.frameon": False,
+         "axes.spines.top": False, "axes.spines.right": False, "axes.edgecolor": "#444444",
+         "axes.grid": True, "grid.color": "#dddddd", "grid.linewidth": 0.6,
+         "hatch.linewidth": 0.6, "hatch.color": "#cf9f9f", "savefig.dpi": 150}
+_METADATA: dict = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}
+_DASHES: tuple = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (6, 2, 1.5, 2)), (0, (6, 2, 1.5, 2, 1.5, 2)))
+_MARKS = "os^vDPX"
 
 
-def look(index: int, count: int) -> dict:
-    """Colour, dashes and mark of curve `index` of `count`, told apart in grey print too: keywords of `plot`."""
-    return {"color": matplotlib.colors.to_hex(cm.viridis(0.85 * index / max(count - 1, 1))),
-            "linestyle": DASHES[index % len(DASHES)], "marker": MARKS[index % len(MARKS)], "markersize": 3.5,
-            "markerfacecolor": "none", "markeredgewidth": 0.9}
+def look(index: int, count: int, **more: Any) -> dict:
+    """Keywords of `plot` for curve `index` of `count`, told apart in grey print too.
+
+    >>> from restitute import plot
+    >>> plot.look(1, 3, marker="")["color"]
+    '#277e8e'
+    """
+    colour = matplotlib.colors.to_hex(cm.viridis(0.85 * index / max(count - 1, 1)))
+    return {"color": colour, "linestyle": _DASHES[index % len(_DASHES)], "markersize": 3.5,
+            "marker": _MARKS[index % len(_MARKS)], "markerfacecolor": "none", **more}
 
 
 def _plain(text):
@@ -36,7 +43,8 @@ def _plain(text):
     return "".join(c if c.isprintable() else " " for c in text).replace("$", r"\$")
 
 
-def sheet(panels: int = 1, title: str = "", note: str = "", origin: str = "", *, shown: bool = False):
+def sheet(panels: int = 1, title: str = "", note: str = "", origin: str = "", *,
+          shown: bool = False) -> Any:
     """A sheet with panels side by side, for `save`.
 
     Parameters
@@ -53,45 +61,42 @@ def sheet(panels: int = 1, title: str = "", note: str = "", origin: str = "", *,
     >>> from restitute import plot
     >>> ax = plot.sheet(title="Steel on rubber", note="friction 0.3")
     """
-    lines = textwrap.wrap(_plain(note), 62 * panels)
-    head = 0.24 * bool(title or origin) + 0.2 * len(lines) + 0.08
+    lines = textwrap.wrap(_plain(note), 62 * panels) + [_plain(origin)] * bool(origin)
+    head = 0.24 * bool(title) + 0.2 * len(lines) + 0.08
     size = ({1: 7.4, 2: 10.8}.get(panels, 4.5 * panels), 4.2 + head)
     with matplotlib.rc_context(STYLE):
         if shown:
             from matplotlib import pyplot
 
-            figure = pyplot.figure(figsize=size)
+            figure = pyplot.figure(figsize=size, layout="constrained")
         else:
-            figure = Figure(figsize=size)
-        figure.set_constrained_layout(True)
+            figure = Figure(figsize=size, layout="constrained")
         cells = figure.add_gridspec(2, panels, height_ratios=[head, 4.2])
         top = figure.add_subplot(cells[0, :])
         top.axis("off")
         top.text(0, 1, _plain(title), size=13, va="top", transform=top.transAxes)
-        top.text(1, 1, _plain(origin), size=8, va="top", ha="right", color="#777777", transform=top.transAxes)
-        top.text(0, 0, "\n".join(lines), size=9.5, va="bottom", color="#555555", transform=top.transAxes)
+        top.text(0, 0, "\n".join(lines), size=9, color="#555555", transform=top.transAxes)
         axes = np.array([figure.add_subplot(cells[1, i]) for i in range(panels)])
     return axes[0] if panels == 1 else axes
 
 
-def axes_of(ax, panels=1):
+def axes_of(ax: Any, panels: int = 1) -> Any:
     """The axes that are given, or those of a new sheet."""
     if ax is None:
         return sheet(panels, shown=True)
-    if panels > 1 and np.size(ax) != panels:
+    if np.size(ax) != panels:
         raise ValueError(f"ax: {np.size(ax)} axes are given, must be {panels}")
     return np.ravel(ax) if panels > 1 else ax
 
 
-def legend(ax, title="") -> None:
+def legend(ax: Any, title: str = "") -> None:
     """The legend right of the axes, where no data are."""
-    handles, labels = ax.get_legend_handles_labels()
-    if handles:
-        ax.legend(handles, labels, loc="upper left", bbox_to_anchor=(1.01, 1.02), borderaxespad=0, title=title or None,
-                  fontsize=9 if len(labels) < 12 else 7.5, alignment="left", frameon=False)
+    if ax.get_legend_handles_labels()[0]:
+        ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.02), borderaxespad=0,
+                  title=title or None, alignment="left", frameon=False)
 
 
-def save(ax, file, format: str | None = None) -> None:
+def save(ax: Any, file: Any, format: str | None = None) -> None:
     """Write the figure of these axes; the same figure gives the same bytes.
 
     Parameters
@@ -110,13 +115,13 @@ def save(ax, file, format: str | None = None) -> None:
     figure = ax if isinstance(ax, Figure) else np.ravel(ax)[0].figure
     format = format or os.path.splitext(os.fspath(file))[1][1:].lower()
     if format not in _METADATA:
-        raise ValueError(f"{os.fspath(file)}: must end in .svg, .png or .pdf")
+        raise ValueError(f"{file}: must end in .svg, .png or .pdf")
     whole = io.BytesIO()
     with matplotlib.rc_context(STYLE), warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Glyph")  # a name may have letters that the font lacks
-        figure.savefig(whole, format=format, metadata=_METADATA[format], bbox_inches="tight", pad_inches=0.08)
+        figure.savefig(whole, format=format, metadata=_METADATA[format], bbox_inches="tight")
     if hasattr(file, "write"):
         file.write(whole.getvalue())
-        return
-    with open(file, "wb") as stream:
-        stream.write(whole.getvalue())
+    else:
+        with open(file, "wb") as stream:
+            stream.write(whole.getvalue())

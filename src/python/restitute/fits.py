@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What fits give: constants with intervals, remarks, curves for figures."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from restitute import _library
+from restitute.materials import Material
+
+__all__ = ["MEASURED", "DmaFit", "DropFit", "Fit"]
+
+#: What a drop test may measure.
+MEASURED = ("ez", "ex", "contact_time")
+
+
+class Fit:
+    """What fits have in common; print one to see it all.
+
+    Attributes
+    ----------
+    material : Material
+        The fitted solid.
+    names : list of str
+        Its n constants, e.g. "modulus1_pa", then "friction" and "shift_..." where fitted.
+    value, low, high : ndarray, shape (n,)
+        And their intervals. 0 or inf: no such bound; both the value: known; nan: no interval.
+    correlation : ndarray, shape (n, n)
+        Of their logarithms, of drop tests.
+    remarks : list of str
+        What the data leave open, and what the model misses.
+    flags : int
+        Bits of `restitute_fit_flag`; `is_good` sums them up.
+    """
+
+    summary = ""
+    correlation = np.empty((0, 0))
+
+    def __init__(self, struct: Any, model: str, name: str, constants: list):
+        self.remarks, self.flags = _library.text(struct.remarks).splitlines(), struct.flags
+        self.model, self.rms = model, struct.rms
+        self.material = Material(struct.material, name=name, model=model)
+        names, *numbers = zip(*constants)
+        self.names, (self.value, self.low, self.high) = list(names), np.array(numbers)
+
+    @property
+    def is_good(self) -> bool:
+        """The data follow the model and determine its constants, and the search has ended."""
+        bad = ("UNDETERMINED", "MISFIT", "UNFINISHED")
+        return not any(self.flags & getattr(_library.fit, f"RESTITUTE_FIT_FLAG_{word}")
+                       for word in bad)
+
+    def __str__(self):
+        lines = []
+        for name, value, low, high in zip(self.names, self.value, self.low, self.high):
+            ends = ("" if np.isnan(low) else " known" if low == high else
+                    f" {low:.6g} to {high:.6g}" if 0 < low and high < np.inf else
+                    f" above {low:.6g}" if low > 0 else
+                    f" below {high:.6g}" if high < np.inf else " not determined")
+            lines.append(f"  {name:26} {value:<13.6g}{ends}")
+        for i, row in enumerate(self.correlation[1:], 1):
+            lines += ["", "  correlations of the logarithms"] if i == 1 else []
+            lines.append(f"  {self.names[i]:26} " + " ".join(f"{c:6.3f}" for c in row[:i]))
+        return "\n".join([*lines, "", f"  {self.summary}"])
+
+    def __repr__(self):
+        return "\n".join([f"<restitute.{type(self).__name__} {self.model}", str(self),
+                          *(f"  remark: {remark}" for remark in self.remarks)]) + ">"
+
+
+class DropFit(Fit):
+    """A fit of m measured impacts.
+
+    Attributes
+    ----------
+    values, rank, impacts : int
+        Measured values; combinations of constants that they determine; impacts solved.
+    rms, noise, condition : float
+        Of the weighted residuals; noise is nan if no degree of freedom is left.
+    measured : dict of ndarray, shape (m,)
+        "ez", "ex", "contact_time" (s), nan where there is none, and "normal_speed" (m/s).
+    """
+
+    def __init__(self, struct: Any, model: str, name: str, fitter: Any, measured: dict):
+        n = struct.constants
+        super().__init__(struct, model, name, [
+            (_library.text(struct.name[k]), struct.value[k], struct.low[k], struct.high[k])
+            for k in range(n)])
+        self.correlation = np.array([list(struct.correlation[k])[:n] for k in range(n)])
+        self.values, self.rank, self.impacts = struct.values, struct.rank, struct.impacts
+        self.noise, self.condition = struct.noise, struct.condition
+        self.measured, self._fitter, self._fitted = measured, fitter, dict[str, np.ndarray]()
+        self.confidence = fitter.options.confidence
+        self.summary = (
+            f"rms of the residuals of {self.values} values {self.rms:.3g}, noise {self.noise:.3g}; "
+            f"{self.rank} constants or combinations of them determined, intervals of "
+            f"{100 * self.confidence:g} %; {self.impacts} impacts solved")
+
+    @property
+    def fitted(self) -> dict[str, np.ndarray]:
+        """What the solid gives for each impact, measured or not: arrays of shape (m,)."""
+        if not self._fitted:
+            arrays = [np.empty(len(self.measured["ez"])) for _ in MEASURED]
+            self._fitter.call(_library.fit.restitute_fitter_values, self._fitter.handle,
+                              *map(_library.pointer, arrays))
+            self._fitted = dict(zip(MEASURED, arrays))
+        return self._fitted
+
+    @property
+    def residuals(self) -> dict[str, np.ndarray]:
+        """Measured minus fitted, likewise."""
+        return {name: self.measured[name] - self.fitted[name] for name in MEASURED}
+
+    def curves(self) -> dict[str, tuple]:
+        """Speed, measured and fitted values, for `restitute.plot.fit`."""
+        speed = self.measured["normal_speed"]
+        return {name: (speed, self.measured[name], self.fitted[name]) for name in MEASURED}
+
+
+class DmaFit(Fit):
+    """A Prony series from moduli.
+
+    Attributes
+    ----------
+    temperature, shift : ndarray, shape (m,)
+        Distinct temperatures and their a_T, by which times are multiplied.
+    wlf : (float, float)
+        C1 and C2, given, or fitted to the shifts; nan: none.
+    rms, worst : float
+        Of the relative residuals.
+    """
+
+    def __init__(self, struct: Any, name: str, tension: bool, measured: list):
+        terms, count = struct.terms, struct.temperatures
+        self.temperature = np.array(list(struct.temperature)[:count])
+        self.shift, self.worst = np.array(list(struct.shift)[:count]), struct.worst
+        self.wlf = (struct.wlf_c1, struct.wlf_c2)
+        constants = [("equilibrium_modulus_pa", struct.equilibrium_modulus)]
+        constants += [(f"modulus_pa[tau={struct.relaxation_time[k]:.6g}]", struct.modulus[k])
+                      for k in range(terms)]
+        constants += [(f"shift_{t:g}", shift) for t, shift in zip(self.temperature, self.shift)]
+        constants += [(f"wlf_c{k + 1}", c) for k, c in enumerate(self.wlf) if not np.isnan(c)]
+        super().__init__(struct, "prony", name, [(*one, np.nan, np.nan) for one in constants])
+        self._tension, self._measured = tension, measured
+        self.summary = (f"Prony series of {terms} terms, relative residuals: rms {self.rms:.3g}, "
+                        f"largest {self.worst:.3g}")
+
+    def curves(self) -> dict[str, tuple]:
+        """a_T times frequency, measured and fitted shear moduli, for `restitute.plot.fit`."""
+        frequency, storage, loss, *temperature = self._measured
+        if temperature:
+            frequency = frequency * self.shift[np.searchsorted(self.temperature, temperature[0])]
+        factor = 1 / (2 * (1 + self.material.poisson_ratio)) if self._tension else 1
+        omega = 2 * np.pi * frequency
+        return {"storage": (frequency, factor * storage, self.material.storage_modulus(omega)),
+                "loss": (frequency, factor * loss, self.material.loss_modulus(omega))}
