@@ -13,7 +13,7 @@ from pathlib import Path
 from tree import files_of, prose_of
 
 MOST = 100
-# The command becomes Python.
+# What is released keeps its form.
 NOT_READ = ("CHANGELOG.md",)
 UNBROKEN = re.compile(r"\||!\[|    ")
 FORMULA = re.compile(r" *(?:/\*+|\*|!>|!!|!|#|//) {2,}|!\$|#!")
