@@ -25,7 +25,8 @@ def courses(path):
 
 
 def main(table, figure):
-    plt.rcParams.update({"svg.hashsalt": "restitute", "axes.grid": True, "grid.color": "#dddddd"})
+    plt.rcParams.update({"svg.hashsalt": "restitute", "svg.fonttype": "none", "axes.grid": True,
+                         "grid.color": "#dddddd"})
     sheet, (left, right) = plt.subplots(1, 2, figsize=(10, 4.6), layout="constrained")
     for gas, label, colour in zip(courses(table), LABELS, COLOURS):
         left.loglog(gas["time"], gas["T"], color=colour, linewidth=2.5)
@@ -34,7 +35,8 @@ def main(table, figure):
     left.plot([], [], ":", color="black", label="theory, Maxwell's velocities")
     left.set(ylabel="temperature $T/T_0$")
     right.set(ylabel=r"$p$, where $T$ falls as $t^{-p}$", ylim=(0, 2.6), xlim=(10, None),
-              yticks=(0, 0.5, 1, 1.5, 5 / 3, 2, 2.5), yticklabels=("0", "0.5", "1", "1.5", "5/3", "2", "2.5"))
+              yticks=(0, 0.5, 1, 1.5, 5 / 3, 2, 2.5),
+              yticklabels=("0", "0.5", "1", "1.5", "5/3", "2", "2.5"))
     for axes, place in ((left, "lower left"), (right, "lower right")):
         axes.set_xlabel("time, mean free paths over the first rms speed")
         axes.legend(loc=place)

@@ -34,17 +34,20 @@ def damping():
     draw(left, "speed_m_s", "ez_library", head_on, "-", color=BLUE, label="restitute, method sync")
     draw(left, "speed_m_s", "ez_restitute", head_on, "o", color=BLUE, fillstyle="none",
          label="LAMMPS, pair_style restitute")
-    draw(left, "speed_m_s", "ez_damping", head_on, "--", color=RED, label="LAMMPS, tsuji fitted at 1 m/s")
+    draw(left, "speed_m_s", "ez_damping", head_on, "--", color=RED,
+         label="LAMMPS, tsuji fitted at 1 m/s")
     for speed, name, colour, mark in ((0.001, "1 mm/s", BLUE, "o"), (0.1, "0.1 m/s", GREEN, "s")):
-        some = [row for row in rows if row["angle_deg"] > 0 and math.isclose(row["speed_m_s"], speed)]
+        some = [row for row in rows
+                if row["angle_deg"] > 0 and math.isclose(row["speed_m_s"], speed)]
         draw(right, "angle_deg", "ex_library", some, "-", color=colour, label=f"{name}, sync")
         draw(right, "angle_deg", "ex_restitute", some, mark, color=colour, fillstyle="none",
              label=f"{name}, LAMMPS")
         if speed == 0.001:
             draw(right, "angle_deg", "ex_damping", some, "--", color=RED, label="tsuji, any speed")
-    left.set(xscale="log", xlabel="speed of a head-on impact, m/s", ylabel="normal restitution $e_z$", ylim=(0, 1))
-    right.set(xlabel="angle between velocity and normal, degrees", ylabel="tangential restitution $e_x$",
-              xlim=(0, 90), ylim=(-1, 0.5))
+    left.set(xscale="log", xlabel="speed of a head-on impact, m/s", ylim=(0, 1),
+             ylabel="normal restitution $e_z$")
+    right.set(xlabel="angle between velocity and normal, degrees", xlim=(0, 90), ylim=(-1, 0.5),
+              ylabel="tangential restitution $e_x$")
     left.legend(loc="upper right")
     right.legend(loc="lower left")
     return figure
@@ -57,7 +60,8 @@ def hopper():
     frames, series = figure.subfigures(2, 1, height_ratios=(0.45, 0.55))
     with open("hopper-frames.txt") as file:
         blocks = [block.splitlines() for block in file.read().split("\n\n\n") if block.strip()]
-    titles = ("restitute, full", "restitute, flowing", "constant damping, flowing", "restitute, at rest")
+    titles = ("restitute, full", "restitute, flowing", "constant damping, flowing",
+              "restitute, at rest")
     for axes, title, block in zip(frames.subplots(1, 4), titles, blocks):
         beads = [[float(word) for word in line.split()] for line in block if line]
         circles = PatchCollection([Circle(bead[:2], bead[2]) for bead in beads], cmap="viridis",
@@ -91,7 +95,7 @@ def hopper():
 
 
 if __name__ == "__main__":
-    plt.rcParams.update({"svg.hashsalt": "restitute"})
+    plt.rcParams.update({"svg.hashsalt": "restitute", "svg.fonttype": "none"})
     kind, path = sys.argv[1:]
     {"damping": damping, "hopper": hopper}[kind]().savefig(
         path, dpi=100, metadata={"Date": None} if path.endswith(".svg") else {})

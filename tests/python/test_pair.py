@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pairs of arrays of impacts: reference values, broadcasting, refusals, warnings, histories."""
 
+import ast
 import signal
 import threading
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -112,6 +114,9 @@ def test_keywords_that_do_not_fit_together_are_refused(keywords, words):
     ({"speed": [1, 2, 0]}, r"impacts\[2\]: speed = 0: must be finite and > 0"),
     ({"angle": [[0, 90]]}, r"impacts\[0, 1\]: angle = 90: must be in \[0, 90\)"),
     ({"density": np.nan}, "^density = nan: must be"),
+    ({"angle": [np.inf, 0]}, r"impacts\[0\]: angle = inf: must be"),
+    ({"speed": 1e999, "angle": 0.0}, "^speed = inf: must be finite"),
+    ({"radius2": 1, "density2": -1}, r"^density2 = -1: must be > 0 \(inf: held fast\)"),
     ({"density": None}, "^density or mass is missing"),
     ({"friction": [0, -0.1]}, r"impacts\[1\]: friction = -0.1: must be"),
     ({"radius": "wide"}, "radius = 'wide': must be a number"),
@@ -124,8 +129,20 @@ def test_keywords_that_do_not_fit_together_are_refused(keywords, words):
 def test_values_out_of_range_are_refused_with_value_place_and_range(keywords, words):
     with pytest.raises(DomainError, match=words):
         pair(RUBBER, **{**BALL, **keywords})
-    with pytest.raises(DomainError):
-        pair(psi=1, delta1=1, delta2=0)
+
+
+@pytest.mark.parametrize("keywords, words", [
+    ({"delta2": [1, 0], "gamma": 1}, r"impacts\[1\]: delta2 = 0: must be in \(0, 1e12\]"),
+    ({"delta2": 1, "gamma": np.inf}, "gamma = inf: must be finite and > 0 beside delta2"),
+    ({"delta2": 1, "delta1": 0}, "delta1 = 0: must be finite and > 0 beside delta2"),
+    ({"delta1": 1, "gamma": -4}, "gamma = -4: must be")])
+def test_numbers_of_the_paper_out_of_range_are_refused(keywords, words):
+    with pytest.raises(DomainError, match=words):
+        pair(psi=1, **keywords)
+    impacts = Impacts(psi=1, **keywords)
+    assert impacts.numbers().shape == impacts.shape
+    with pytest.raises(TypeError, match="delta2 needs delta1 or gamma beside it, one of them"):
+        Impacts(psi=1, delta2=1)
 
 
 def test_failed_impacts_are_nan_and_say_why():
@@ -239,7 +256,7 @@ def test_fields_carry_the_normal_force():
 
 def test_a_missing_component_is_named(monkeypatch):
     monkeypatch.delitem(restitute._library.LIBRARIES, "bem", raising=False)
-    monkeypatch.delattr(restitute._library, "bem", raising=False)
+    monkeypatch.delitem(vars(restitute._library), "bem", raising=False)
     with pytest.raises(restitute.errors.MissingComponent, match="component bem is not installed"):
         pair(psi=1, method="bem")
     assert "bem" not in restitute.methods()
@@ -253,3 +270,13 @@ def test_members_of_a_result_are_listed_and_others_refused():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert result.limits() == [] and np.isnan(result.radius_ratio)
+
+
+def test_type_checkers_know_the_names_that_the_package_has():
+    module = ast.parse(Path(restitute.__file__).read_text())
+    block = next(node for node in module.body if isinstance(node, ast.If))
+    told = {(name.name, line.module.partition(".")[2])
+            for line in block.body for name in line.names}
+    home = {**restitute._HOME, "paper": "", "plot": ""}
+    assert told == set(home.items()) and set(home) | {"version"} == set(restitute.__all__)
+    assert all(getattr(restitute, name).__name__ == name for name in restitute._HOME)

@@ -99,6 +99,24 @@ def test_other_sizes_and_frictions_are_served(rubber, table):
         table.contact(**BALL, rotation_blocked=True)
 
 
+def test_bodies_collide_as_by_solving(rubber, table):
+    speed = np.array([0.02, 0.1, 0.5])
+    ball = restitute.Body(position=(0, 0, 0.001), radius=0.001, mass=1200 * 4 / 3e9 * np.pi,
+                          velocity=speed[:, None] * [1, 0.5, -1], spin=(3, -40, 5))
+    floor, before = restitute.Body(normal=(0, 0, 1)), ball.velocity.copy()
+    own, still, pairs = table.collide(ball, floor)
+    solved, _, exact = restitute.collide(rubber, ball, floor, friction=0.3, method="sync",
+                                         tolerance=1e-6, radius_limit=1, displacement_limit=99)
+    # pairs differ by 1.01e-4 at most, and speeds at the contact are below twice the normal one
+    assert np.abs(own.velocity - solved.velocity).max() < 2.02e-4 * speed.max()
+    assert np.abs(pairs.ez - exact.ez).max() < 1.01e-4 > np.abs(pairs.ex - exact.ex).max()
+    assert np.all(still.velocity == 0) and np.array_equal(ball.velocity, before)
+    with pytest.warns(restitute.ModelLimitWarning, match="1 of 1 impacts are outside"):
+        table.collide(ball._replace(velocity=(0, 0, -3.0)), floor)
+    with pytest.raises(restitute.DomainError, match=r"^\[1\]: .*not closing"):
+        table.collide(ball._replace(velocity=[(0, 0, -0.1), (0, 0, 0.1)]), floor)
+
+
 def test_the_bits_are_the_same_for_any_number_of_threads_and_after_pickling(rubber, table, speeds):
     other = restitute.Table.build(rubber, **BALL, speeds=(0.01, 1), tolerance=1e-4, threads=2)
     again = pickle.loads(pickle.dumps(table))
@@ -122,6 +140,12 @@ def test_a_saved_table_loads_with_the_same_bits(table, speeds, tmp_path):
         restitute.Table.load(tmp_path / "none.h5")
     with pytest.raises(restitute.FileError, match="cannot be written"):
         table.save(tmp_path / "none" / "rubber.h5")
+
+
+def test_an_installation_without_files_says_what_else_keeps_a_table(table, monkeypatch):
+    monkeypatch.delitem(_library.LIBRARIES, "table_files", raising=False)
+    with pytest.raises(restitute.errors.MissingComponent, match="use pickle"):
+        table.save("never.h5")
 
 
 def test_bad_options_and_scenes_are_refused_by_name(rubber):

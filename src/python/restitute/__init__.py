@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ruff: noqa: F401
 """Restitution coefficients of viscoelastic spheres in oblique impact, with friction.
 
     >>> import restitute
@@ -11,23 +12,42 @@
 SI units, arrays in and out. Names are loaded when they are first used.
 """
 from importlib import import_module
+from typing import TYPE_CHECKING
 
-_HOME = {
-    "errors": ("Error", "DomainError", "FileError", "FormatError", "SolverError",
-               "MissingComponent", "ToleranceWarning", "ModelLimitWarning"),
-    "materials": ("Material", "material", "material_names", "shear_modulus", "solids"),
-    "scenes": ("Impacts", "describe"),
-    "solving": ("methods",),
-    "impact": ("pair", "solve", "Pairs"),
-    "histories": ("history", "History"),
-    "collisions": ("collide", "Body"),
-    "executor": ("map_chunks",),
-    "table": ("Table", "build_tables"),
-    "contact": ("ContactLaw",),
-    "fitting": ("fit_drop_test", "fit_dma"),
-}
-_MODULES = ("plot", "paper")
-__all__ = sorted([name for names in _HOME.values() for name in names] + [*_MODULES, "version"])
+if TYPE_CHECKING:  # which names there are, for type checkers
+    from restitute import paper, plot
+    from restitute.collisions import Body, collide
+    from restitute.contact import ContactLaw
+    from restitute.errors import (
+        DomainError,
+        Error,
+        FileError,
+        FormatError,
+        MissingComponent,
+        ModelLimitWarning,
+        SolverError,
+        ToleranceWarning,
+    )
+    from restitute.executor import map_chunks
+    from restitute.fitting import fit_dma, fit_drop_test
+    from restitute.histories import History, history
+    from restitute.impact import Pairs, pair, solve
+    from restitute.materials import Material, material, material_names, shear_modulus, solids
+    from restitute.scenes import Impacts, describe
+    from restitute.solving import methods
+    from restitute.table import Table, build_tables
+
+# Where each name comes from at run time, as above.
+_HOME = {name: module for module, names in {
+    "collisions": "Body collide", "contact": "ContactLaw",
+    "errors": "DomainError Error FileError FormatError MissingComponent ModelLimitWarning "
+              "SolverError ToleranceWarning",
+    "executor": "map_chunks", "fitting": "fit_dma fit_drop_test", "histories": "History history",
+    "impact": "Pairs pair solve",
+    "materials": "Material material material_names shear_modulus solids",
+    "scenes": "Impacts describe", "solving": "methods", "table": "Table build_tables",
+}.items() for name in names.split()}
+__all__ = sorted([*_HOME, "paper", "plot", "version"])
 
 
 def version():
@@ -38,16 +58,14 @@ def version():
 
 
 def __getattr__(name):
-    if name in _MODULES:
+    if name in ("plot", "paper"):
         return import_module(f"restitute.{name}")
-    for module, names in _HOME.items():
-        if name in names:
-            value = getattr(import_module(f"restitute.{module}"), name)
-            globals()[name] = value
-            return value
     if name == "__version__":
         return version()
-    raise AttributeError(f"module 'restitute' has no attribute '{name}'")
+    if name not in _HOME:
+        raise AttributeError(f"module 'restitute' has no attribute '{name}'")
+    globals()[name] = value = getattr(import_module(f"restitute.{_HOME[name]}"), name)
+    return value
 
 
 def __dir__():

@@ -101,10 +101,10 @@ class ContactLaw:
         return self._times(_library.contact.restitute_contact_time_step_limit, mass, radius, speed)
 
     def _times(self, function, *numbers):
-        numbers = np.broadcast_arrays(*(np.asarray(number, float) for number in numbers))
-        times, one = np.empty(numbers[0].shape), ffi.new("double *")
+        arrays = np.broadcast_arrays(*(np.asarray(number, float) for number in numbers))
+        times, one = np.empty(arrays[0].shape), ffi.new("double *")
         for place in np.ndindex(times.shape):
-            call(function, self._handle, *(number[place] for number in numbers), one)
+            call(function, self._handle, *(array[place] for array in arrays), one)
             times[place] = one[0]
         return times[()]
 
@@ -144,6 +144,9 @@ class ContactLaw:
         elif len(motions) != len(places):
             raise errors.DomainError(f"motions: {len(motions)} are given, must be {len(places)}")
         for name, value in members.items():
+            if name not in motions.dtype.names[1:]:
+                known = ", ".join(motions.dtype.names[1:])
+                raise TypeError(f"'{name}' is not one of {known}")
             motions[name] = value
         rates = _library.struct("contact_rates", "contact")
         call(_library.contact.restitute_contact_rates_set, self._handle, step, rates)

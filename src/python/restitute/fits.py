@@ -59,7 +59,7 @@ class Fit:
                     f" {low:.6g} to {high:.6g}" if 0 < low and high < np.inf else
                     f" above {low:.6g}" if low > 0 else
                     f" below {high:.6g}" if high < np.inf else " not determined")
-            lines.append(f"  {name:26} {value:<13.6g}{ends}")
+            lines.append(f"  {name:26} {value:<13.6g}{ends}".rstrip())
         for i, row in enumerate(self.correlation[1:], 1):
             lines += ["", "  correlations of the logarithms"] if i == 1 else []
             lines.append(f"  {self.names[i]:26} " + " ".join(f"{c:6.3f}" for c in row[:i]))

@@ -21,10 +21,12 @@ SCENE = ("radius", "density", "mass", "inertia", "radius2", "density2", "mass2",
          "partner", "friction", "speed", "angle", "normal_speed", "tangential_speed", "spin",
          "spin2", "rotation_blocked", "time_shift", "wave_density")
 
-# What the library never sees as such: above the first, below the second, in words.
-_RANGES = {"speed": (0, np.inf, "must be finite and > 0"),
-           "density": (0, np.inf, "must be finite and > 0"),
-           "angle": (-5e-324, 90, "must be in [0, 90)")}
+# What the library never sees as such: above the first, up to the second, in words.
+_MOST = np.finfo(float).max
+_RANGES = {"speed": (0, _MOST, "must be finite and > 0"),
+           "angle": (-5e-324, np.nextafter(90, 0), "must be in [0, 90)"),
+           "density": (0, _MOST, "must be finite and > 0"),
+           "density2": (0, np.inf, "must be > 0 (inf: held fast)")}
 
 
 class Columns:
@@ -100,7 +102,7 @@ class Impacts:
         del self._checks
 
     def _in_range(self, name, value, low, high, words):
-        bad = ~((value > low) & (value < high))
+        bad = ~((value > low) & (value <= high))
         if np.any(bad):
             self._checks.append((bad, lambda at: f"{name} = {at(value):.15g}: {words}"))
 
@@ -113,8 +115,8 @@ class Impacts:
             if len(known) != 1:
                 raise TypeError("delta2 needs delta1 or gamma beside it, one of them")
             value, delta2 = columns[known[0]], columns.pop("delta2")
-            self._in_range(known[0], value, 0, np.inf, "must be finite and > 0 beside delta2")
-            self._in_range("delta2", delta2, 0, np.nextafter(1e12, 2e12), "must be in (0, 1e12]")
+            self._in_range(known[0], value, 0, _MOST, "must be finite and > 0 beside delta2")
+            self._in_range("delta2", delta2, 0, 1e12, "must be in (0, 1e12]")
             with np.errstate(all="ignore"):  # (25): delta2 = delta1 sqrt(gamma)
                 if known[0] == "gamma":
                     columns["delta1"] = delta2 / np.sqrt(value)
@@ -131,8 +133,9 @@ class Impacts:
         partner, shift = values.pop("partner", "rigid"), values.pop("time_shift", 1.0)
         self.solids, place, deformable = combine(material, partner, shift)
         number = {name: _numbers(name, value) for name, value in values.items()}
-        for name in _RANGES.keys() & number.keys():
-            self._in_range(name, number[name], *_RANGES[name])
+        for name, allowed in _RANGES.items():
+            if name in number:
+                self._in_range(name, number[name], *allowed)
         own = ("radius2", "inertia2", "friction", "spin2", "rotation_blocked", "wave_density")
         columns = {name: number[name] for name in own if name in number}
         for name in ("radius", "inertia", "spin"):
@@ -205,9 +208,9 @@ class Impacts:
         if self.kind == "impact":
             for name in DIMENSIONLESS[:4]:
                 values[name] = self.records[name]
-            elastic = self.records["delta1"] == 0
-            gamma = np.where(elastic, 0, self.records["gamma"])
-            values["delta2"] = self.records["delta1"] * np.sqrt(gamma)
+            gamma = np.where(values["delta1"] == 0, 0, values["gamma"])
+            with np.errstate(invalid="ignore"):
+                values["delta2"] = values["delta1"] * np.sqrt(gamma)
         else:
             scene = _library.pointer(self.bound(), "restitute_scene[]")
             number = _library.pointer(values, "restitute_numbers[]")
@@ -270,8 +273,9 @@ def _speeds(number):
     if "speed" not in number:
         return parts
     angle = np.radians(number.get("angle", 0.0))
-    return {"normal_speed": number["speed"] * np.cos(angle),
-            "tangential_speed": number["speed"] * np.sin(angle)}
+    with np.errstate(invalid="ignore"):
+        return {"normal_speed": number["speed"] * np.cos(angle),
+                "tangential_speed": number["speed"] * np.sin(angle)}
 
 
 def combine(material: Any, partner: Any, time_shift: Any) -> tuple[list[Material], Any, Any]:
@@ -311,10 +315,12 @@ def combine(material: Any, partner: Any, time_shift: Any) -> tuple[list[Material
 
 
 def _objects(value) -> np.ndarray:
-    """An array of Materials or words."""
+    """An array of Materials or words; a word is no sequence."""
+    if not isinstance(value, (str, os.PathLike)):
+        return np.asarray(value, object)
     array = np.empty((), object)
     array[()] = value
-    return np.asarray(value, object) if isinstance(value, (list, tuple, np.ndarray)) else array
+    return array
 
 
 def _span(values: Any, unit: str, scale: float = 1.0) -> str:

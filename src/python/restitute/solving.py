@@ -109,14 +109,14 @@ def solve_impacts(impacts: Impacts, settings: dict, *, energies: bool = False, s
     executor, retries
         As in `restitute.map_chunks`; each chunk is solved by one thread.
     chunk : int, optional
-        Impacts a chunk; by default there are 64 chunks or more, of at most 4096 impacts.
+        Impacts a chunk; by default so many that there are 256 chunks, and at most 4096.
     progress : callable
         Called with the number of impacts done and of all.
     """
     total = len(impacts)
     if executor is None or total == 0:
         return _solve_here(impacts, settings, energies, stop, progress)
-    size = chunk or min(-(-total // 64), 4096)
+    size = chunk or min(-(-total // 256), 4096)
     tasks = [(impacts[i:i + size], {**settings, "threads": 1}, energies, stop, None)
              for i in range(0, total, size)]
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from restitute import _library, errors
 from restitute._library import call, ffi
+from restitute.collisions import Body, after, records_of
 from restitute.executor import map_chunks
 from restitute.impact import LIMITS
 from restitute.materials import Material
@@ -156,14 +157,16 @@ class Table:
         ------
         FileError, FormatError
             It cannot be read; it is no table, or damaged.
+        MissingComponent
+            This installation has no component table_files, as a wheel; `pickle` keeps a table, too.
         """
         handle = ffi.new("restitute_table **")
-        call(_library.table_files.restitute_table_read, _library.string(path), handle)
+        call(_files().restitute_table_read, _library.string(path), handle)
         return cls(handle[0])
 
     def save(self, path: str | os.PathLike) -> None:
         """Write the table into an HDF5 file, whole or not at all (`FileError`)."""
-        call(_library.table_files.restitute_table_write, self._handle, _library.string(path))
+        call(_files().restitute_table_write, self._handle, _library.string(path))
 
     @classmethod
     def from_data(cls, data: dict[str, Any]) -> Table:
@@ -276,6 +279,46 @@ class Table:
         return TablePairs(ez.reshape(shape)[()], ex.reshape(shape)[()],
                           lambda: None if contact else self.flags(normal_speed, sliding_speed))
 
+    def collide(self, first: Body, second: Body,
+                contact: TableContact | None = None) -> tuple[Body, Body, TablePairs]:
+        """What two bodies that touch, or many pairs of them, do: `restitute.collide` by the table.
+
+        Parameters
+        ----------
+        first, second : Body
+            Of any size, with the table's chi. What deforms is what the table was built for. Half
+            the size of solid spheres is 32 times the speed in the table.
+        contact : TableContact, optional
+            By default the table's own; the size is that of the bodies.
+
+        Raises
+        ------
+        DomainError
+            The first pair that does not touch or that separates, or that the table does not serve.
+
+        Warns
+        -----
+        ModelLimitWarning
+            How many impacts are beyond the range of the table, whose end is then taken.
+        """
+        shape, bodies = records_of(first, second, {})
+        count = int(np.prod(shape))
+        ez, ex, error, beyond = np.empty(count), np.empty(count), ffi.new("restitute_error *"), 0
+        function, arrays = _library.table.restitute_table_collide, [
+            *(_library.pointer(body, "restitute_body[]") for body in bodies),
+            _library.pointer(ez), _library.pointer(ex)]
+        for i in range(count):
+            status = function(self._handle, _struct(contact), *(one + i for one in arrays), error)
+            beyond += error.message[0] != b"\0"
+            if status < 0:
+                place = f"{list(map(int, np.unravel_index(i, shape)))}: " if shape else ""
+                raise _library.exception(status, place + _library.message_of(error))
+        if beyond:
+            _library.warn(f"{beyond} of {count} impacts are outside the table's range, whose ends "
+                          "are taken", errors.ModelLimitWarning)
+        return (*after((first, second), bodies, shape, []),
+                TablePairs(ez.reshape(shape)[()], ex.reshape(shape)[()], lambda: None))
+
     def beyond(self, normal_speed: Any, contact: TableContact | None = None) -> Any:
         """Whether normal speeds (m/s) are outside the range, whose end is then taken."""
         low, high = self.speed
@@ -325,6 +368,14 @@ class Table:
         low, high = self.speed
         return (f"<restitute.Table {low:.4g} to {high:.4g} m/s, errors {self.info.error_ez:.1g}, "
                 f"{self.info.error_ex:.1g}>")
+
+
+def _files():
+    if not _library.available("table_files"):
+        raise errors.MissingComponent(
+            "the component table_files (HDF5) is not installed with this package: use pickle, or "
+            "build from source")
+    return _library.table_files
 
 
 def _struct(contact):

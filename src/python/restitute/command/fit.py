@@ -157,12 +157,12 @@ def _check_outputs(arguments, partners=()):
     places.read("--dma", arguments.dma)
     for word in partners:
         provenance.read_materials(places, {"partner": word})
-    for option, suffixes in (("output", [".meta.json"]), ("figure", [])):
-        path = getattr(arguments, option)
-        if path:
-            files.check(path, f"--{option}")
-            places.write(f"--{option}", path, *suffixes)
+    if arguments.output:
+        files.check(arguments.output, "--output")
+        places.write("--output", arguments.output, ".meta.json")
     if arguments.figure:
+        files.check(arguments.figure, "--figure")
+        places.write("--figure", arguments.figure)
         options.need("matplotlib", "--figure")
     places.check()
 

@@ -31,7 +31,9 @@ class Rows:
         self.table, self.known = cases.Table(self.content, self.source), known
         if not self.table.lines:
             raise Refusal(f"{self.source}: has column names but no rows")
-        self.numbers, self.called, self.rest = {}, {}, []
+        self.numbers: dict[str, np.ndarray] = {}
+        self.called: dict[str, str] = {}
+        self.rest: list[int] = []
         for i, column in enumerate(self.table.names):
             keyword = known.get(column.casefold())
             if keyword is None:
@@ -47,8 +49,7 @@ class Rows:
         values, reasons = cases.numbers([cell or "0" for cell in cells], number)
         for row, cell in enumerate(cells):
             if cell in reasons:
-                why = f" ({reasons[cell]})" if reasons[cell] else ""
-                raise self.refuse(row, f'{column} = "{cell[:64]}" is not a number{why}')
+                raise self.refuse(row, f'{column} = "{cell[:64]}" {reasons[cell]}')
         return np.where([cell == "" for cell in cells], np.nan, values)
 
     def refuse(self, row, text):

@@ -296,10 +296,10 @@ def _column(rows, name, status):
             raise Refusal(f"{rows.source}: the column {column} is missing")
         return np.zeros(len(status))
     cells = rows.cells[rows.names.index(column)]
-    values = cases.numbers(cells, options.number)[0]
+    values, reasons = cases.numbers(cells, options.number)
     for i in np.flatnonzero(~((values >= low) & (values <= high)) & (status == "")):
-        status[i] = f"{column} is no number" if np.isnan(values[i]) else \
-            f"{column} is out of its range, [{low:g}, {high:g}]"
+        why = reasons.get(cells[i], f"is out of its range, [{low:g}, {high:g}]")
+        status[i] = f'{column} = "{cells[i][:64]}" {why}'
     return values
 
 
