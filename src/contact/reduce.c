@@ -2,8 +2,6 @@
  * Least squares of the relative error of G(t) and of its integral over the first step. The log(tau)
  * are equally spaced, and moduli are >= 0, so that the result is a solid.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-
 #include "contact/law.h"
 
 /* Samples in time; for the bound ten times as many, since G falls between samples. */
@@ -116,13 +114,13 @@ void rst_reduce_series(const struct rst_series *series, int terms, double shorte
         if (!(bound < *error_bound)) continue;
         *error_bound = bound;
         law->g_inf = x[terms];
-        law->n_terms = 0;
+        law->at.terms = 0;
         for (int k = 0; k < terms; k++)
             if (x[k] > 0) { /* terms without modulus would only cost memory and time */
-                law->tau[law->n_terms] = tau[k];
-                law->g[law->n_terms++] = x[k];
+                law->tau[law->at.terms] = tau[k];
+                law->g[law->at.terms++] = x[k];
             }
     }
-    for (int k = law->n_terms; k < rst_most_terms; k++)
+    for (int k = law->at.terms; k < rst_most_terms; k++)
         law->tau[k] = law->g[k] = 0;
 }
