@@ -23,9 +23,9 @@ INLINE void open_states(const struct call c, struct work *s)
         s->axis[0][l] = per * x;
         s->axis[1][l] = per * y;
         s->axis[2][l] = per * z;
-        s->other[0][l] = per * (ny * z - nz * y);
-        s->other[1][l] = per * (nz * x - nx * z);
-        s->other[2][l] = per * (nx * y - ny * x);
+        s->other[0][l] = ny * s->axis[2][l] - nz * s->axis[1][l];
+        s->other[1][l] = nz * s->axis[0][l] - nx * s->axis[2][l];
+        s->other[2][l] = nx * s->axis[1][l] - ny * s->axis[0][l];
         s->scale[l] = c.in->width[l] * c.in->width[l] / c.in->radius[l];
         s->approach[l] = nx * c.in->velocity[0][l] + ny * c.in->velocity[1][l] + nz * c.in->velocity[2][l];
     }

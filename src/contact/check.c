@@ -4,31 +4,36 @@
 #include "contact/law.h"
 
 /* Ranges of a motion, in which the arithmetic does not overflow; far wider than any real radius or
- * mass. The bounds are multiples of the radius, over the step, where that is named. */
+ * mass. */
+enum unit { one, radius, per_step, radius_per_step, unit_count };
 static const struct range {
     const char *name;
     size_t at; /* of a batch */
+    enum unit unit;
     double low, high;
-    int by_radius, per_step;
-} ranges[] = {{"motion.radius", offsetof(struct rst_batch, radius), RST_LEAST_RADIUS, RST_LARGEST_RADIUS, 0, 0},
-              {"motion.overlap", offsetof(struct rst_batch, overlap), -1, 1, 1, 0},
-              {"motion.velocity[0]", offsetof(struct rst_batch, velocity[0]), -1, 1, 1, 1},
-              {"motion.velocity[1]", offsetof(struct rst_batch, velocity[1]), -1, 1, 1, 1},
-              {"motion.velocity[2]", offsetof(struct rst_batch, velocity[2]), -1, 1, 1, 1},
-              {"motion.spin", offsetof(struct rst_batch, spin), -1, 1, 0, 1},
-              {"motion.inverse_mass", offsetof(struct rst_batch, inverse_mass[0]), 0, 2e30, 0, 1},
-              {"motion.inverse_tangential_mass", offsetof(struct rst_batch, inverse_mass[1]), 0, 2e30, 0, 1},
-              {"motion.friction", offsetof(struct rst_batch, friction), 0, 1e6, 0, 0}};
-enum { range_count = sizeof ranges / sizeof *ranges };
+} ranges[] = {{"motion.radius", offsetof(struct rst_batch, radius), one, RST_LEAST_RADIUS, RST_LARGEST_RADIUS},
+              {"motion.overlap", offsetof(struct rst_batch, overlap), radius, -1, 1},
+              {"motion.velocity[0]", offsetof(struct rst_batch, velocity[0]), radius_per_step, -1, 1},
+              {"motion.velocity[1]", offsetof(struct rst_batch, velocity[1]), radius_per_step, -1, 1},
+              {"motion.velocity[2]", offsetof(struct rst_batch, velocity[2]), radius_per_step, -1, 1},
+              {"motion.spin", offsetof(struct rst_batch, spin), per_step, -1, 1},
+              {"motion.inverse_mass", offsetof(struct rst_batch, inverse_mass[0]), per_step, 0, 2e30},
+              {"motion.inverse_tangential_mass", offsetof(struct rst_batch, inverse_mass[1]), per_step, 0, 2e30},
+              {"motion.friction", offsetof(struct rst_batch, friction), one, 0, 1e6}};
 
-static const double *values_of(const struct range *range, const struct rst_batch *batch)
+/* The first range that a lane is out of: its value and bounds; NULL if there is none. Comparisons
+ * are false for NaN. */
+static const struct range *first_bad(double step, const struct rst_batch *b, int l, double found[3])
 {
-    return (const double *)((const char *)batch + range->at);
-}
-
-static double unit_of(const struct range *range, double per_step, double radius)
-{
-    return (range->by_radius ? radius : 1) * (range->per_step ? per_step : 1);
+    const double units[unit_count] = {1, b->radius[l], 1 / step, b->radius[l] / step};
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
+        const struct range *r = &ranges[i];
+        const double value = ((const double *)((const char *)b + r->at))[l], unit = units[r->unit];
+        if (value >= r->low * unit && value <= r->high * unit) continue;
+        found[0] = value, found[1] = r->low * unit, found[2] = r->high * unit;
+        return r;
+    }
+    return NULL;
 }
 
 /* Of the square of the first tangential axis, what must be in the tangential plane: the normal may
@@ -47,18 +52,11 @@ static int is_unit(double x, double y, double z)
     return fabs(x * x + y * y + z * z - 1) <= 1e-6;
 }
 
-/* Comparisons are false for NaN. A new contact has no width. */
+/* A new contact has no width. */
 int rst_all_good(const restitute_contact_law *law, double step, const struct rst_batch *b, int n)
 {
-    const double per_step = 1 / step;
     int good = 1, wide = 0;
-    for (int i = 0; i < range_count; i++) {
-        const double *values = values_of(&ranges[i], b);
-        for (int l = 0; l < n; l++) {
-            const double unit = unit_of(&ranges[i], per_step, b->radius[l]);
-            good &= (values[l] >= ranges[i].low * unit) & (values[l] <= ranges[i].high * unit);
-        }
-    }
+    double found[3];
     for (int l = 0; l < n; l++) {
         const double area = b->overlap[l] * b->radius[l];
         good &= (area <= b->width[l] * b->width[l]) & (b->width[l] > 0) & (in_plane(b, l) >= least_in_plane) &
@@ -66,7 +64,7 @@ int rst_all_good(const restitute_contact_law *law, double step, const struct rst
         wide |= rst_is_wide(area, b->width[l]);
     }
     for (int l = 0; l < n; l++)
-        good &= rst_is_own(law, b->state[l]);
+        good &= rst_is_own(law, b->state[l]) && !first_bad(step, b, l, found);
     for (int l = 0; l < n && good && wide; l++)
         good = !rst_contact_may_shrink(&law->kernel, step, b, l);
     return good;
@@ -75,13 +73,10 @@ int rst_all_good(const restitute_contact_law *law, double step, const struct rst
 int rst_check_contact(const restitute_contact_law *law, double step, const struct rst_batch *b, restitute_error *error)
 {
     const double normal[3] = {b->normal[0][0], b->normal[1][0], b->normal[2][0]};
-    int status = RESTITUTE_OK;
-    for (int i = 0; i < range_count && !status; i++) {
-        const double unit = unit_of(&ranges[i], 1 / step, b->radius[0]);
-        status = rst_check_number(*values_of(&ranges[i], b), ranges[i].low * unit, ranges[i].high * unit,
-                                  ranges[i].name, error);
-    }
-    if (!status) status = rst_check_unit(normal, "motion.normal", error);
+    double found[3];
+    const struct range *bad = first_bad(step, b, 0, found);
+    if (bad) return rst_check_number(found[0], found[1], found[2], bad->name, error);
+    int status = rst_check_unit(normal, "motion.normal", error);
     if (!status) status = rst_check_state(law, b->state[0], error);
     if (status || rst_is_new(b->state[0]) || in_plane(b, 0) >= least_in_plane) return status;
     return rst_report(error, RESTITUTE_ERROR_DOMAIN,
