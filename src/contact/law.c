@@ -75,15 +75,6 @@ static int take_series(const restitute_material *material, const restitute_conta
     return judge_reduction(options, n, law->error_bound, error);
 }
 
-/* Both bodies deform: in series, each with its own modulus. */
-static void halve(struct rst_law *k)
-{
-    k->g_inf /= 2;
-    k->eta /= 2;
-    for (int i = 0; i < k->at.terms; i++)
-        k->g[i] /= 2;
-}
-
 /* FNV-1a. The lowest 24 bits mark states: never all zero, which is a new contact. */
 static uint64_t hash_of(const struct rst_law *kernel)
 {
@@ -119,7 +110,11 @@ int restitute_contact_law_create(const restitute_material *material, const resti
     k->normal = 4 / (1 - nu);
     k->tangential = 8 / (2 - nu);
     made->halved = own.deformable == RESTITUTE_BOTH_BODIES_DEFORM;
-    if (made->halved) halve(k);
+    const double share = made->halved ? 0.5 : 1; /* in series, each with its own modulus */
+    k->g_inf *= share;
+    k->eta *= share;
+    for (int i = 0; i < k->at.terms; i++)
+        k->g[i] *= share;
     k->compliance = k->g_inf > 0 ? 1 / k->g_inf : 0;
     rst_law_grid(k);
     made->hash = hash_of(k);

@@ -4,6 +4,7 @@
 #define RST_CONTACT_LAW_H
 
 #include <restitute/contact.h>
+#include <string.h>
 
 #include "contact/kernel.h"
 
@@ -88,20 +89,15 @@ enum { rst_mark_bits = (1 << 24) - 1 };
 
 static inline uint64_t rst_bits_of(double value)
 {
-    union {
-        double value;
-        uint64_t bits;
-    } const both = {value};
-    return both.bits;
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
 }
 
 static inline void rst_mark(const restitute_contact_law *law, double *width)
 {
-    const union {
-        uint64_t bits;
-        double value;
-    } both = {(rst_bits_of(*width) & ~(uint64_t)rst_mark_bits) | (law->hash & rst_mark_bits)};
-    *width = both.value;
+    const uint64_t bits = (rst_bits_of(*width) & ~(uint64_t)rst_mark_bits) | (law->hash & rst_mark_bits);
+    memcpy(width, &bits, sizeof bits);
 }
 
 static inline int rst_is_new(const double *state)

@@ -173,20 +173,6 @@ INLINE void slide(const struct call c, int viscous, int l, struct work *s)
     if (!viscous) spring_back(c, l, s);
 }
 
-/* The integral over the contact radius. */
-INLINE void close_slide(const struct call c, struct work *s)
-{
-    hold_rim(c, s);
-    for (int l = 0; l < LANES; l++) {
-        s->front[l] = s->known[l] = 0;
-        if (c.at.turns) follow_turn(c, l, s);
-        add_kinks(c, l, s);
-    }
-    add_kink_at_rim(s);
-    for (int l = 0; l < LANES && c.at.turns; l++)
-        keep_turn(c, l, s);
-}
-
 INLINE void shear(const struct call c, struct work *s)
 {
     const double per_step = 1 / c.step, normal_over_tangential = c.law->normal / c.law->tangential;
@@ -225,7 +211,15 @@ INLINE void shear(const struct call c, struct work *s)
             slide(c, 0, l, s);
         }
     }
-    close_slide(c, s);
+    hold_rim(c, s);
+    for (int l = 0; l < LANES; l++) {
+        s->front[l] = s->known[l] = 0;
+        if (c.at.turns) follow_turn(c, l, s);
+        add_kinks(c, l, s);
+    }
+    add_kink_at_rim(s);
+    for (int l = 0; l < LANES && c.at.turns; l++)
+        keep_turn(c, l, s);
     EACH_LANE /* the kinks may have taken the force beyond Coulomb's limit; its square may underflow */
     {
         const double scale = c.law->tangential * c.in->width[l], limit = c.in->friction[l] * s->force[l];
