@@ -67,10 +67,11 @@ INLINE void add_kink_at_rim(struct work *s)
         const double more = larger(lacks, 0) * if_so(slips), outer = s->outer[l] * if_so(more > 0);
         s->total[0][l] += more * x + outer * (limit * x - s->rim[0][l]);
         s->total[1][l] += more * y + outer * (limit * y - s->rim[1][l]);
-        const double inner = s->front[l] * larger(if_so(s->last_sticks[l] == 0), if_so(s->known[l] > 0));
-        s->front[l] = more > 0 ? front : inner;
-        s->front_along[0][l] = more > 0 ? x : s->front_along[0][l];
-        s->front_along[1][l] = more > 0 ? y : s->front_along[1][l];
+        /* arithmetic: selections between what is in memory are no vectors without AVX2 */
+        const double begins = if_so(more > 0), known = if_so(s->known[l] > 0), last_slips = 1 - s->last_sticks[l];
+        s->front[l] = begins * front + (1 - begins) * larger(known, last_slips) * s->front[l];
+        s->front_along[0][l] += begins * (x - s->front_along[0][l]);
+        s->front_along[1][l] += begins * (y - s->front_along[1][l]);
     }
 }
 

@@ -213,7 +213,7 @@ INLINE void shear(const struct call c, struct work *s)
     }
     hold_rim(c, s);
     for (int l = 0; l < LANES; l++) {
-        s->front[l] = s->known[l] = 0;
+        s->front[l] = s->front_along[0][l] = s->front_along[1][l] = s->known[l] = 0;
         if (c.at.turns) follow_turn(c, l, s);
         add_kinks(c, l, s);
     }
