@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import restitute
+from restitute.command import main
 
 pytestmark = pytest.mark.component("fit")
 BALL = dict(radius=0.005, mass=0.004)
@@ -199,3 +200,27 @@ def test_a_fit_prints_its_constants_with_their_intervals(rubber):
     assert "  modulus1_pa                1e+06         known" in text
     assert "  viscosity_pa_s             300" in text and "correlations" in text
     assert text.endswith("impacts solved")
+
+
+def test_the_command_takes_rebound_ratios_hardness_and_columns_of_the_scene(
+        tmp_path, monkeypatch, capfd):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "drop.csv").write_text(
+        "Drop_Height_m,rebound_ratio,radius_m,mass_kg,inertia_kg_m2\n"
+        "0.1,0.80,0.02,0.04,\n0.2,3/4,0.02,0.04,\n0.5,0.70,0.01,0.005,2e-7\n")
+    fit = ["fit", "--input", "drop.csv", "--model", "kelvin_voigt", "--known"]
+    assert main([*fit, "shore_a=90", "--output", "rubber.json"]) == 0
+    # E = 98100 Pa (56 + 7.62336 * 90)/(0.137505 (254 - 2.54 * 90)) = 20.844 MPa, G = E/3
+    assert "modulus1_pa                6.94799e+06   known" in capfd.readouterr().out
+    alone = restitute.fit_drop_test(
+        drop_height=[0.1, 0.2, 0.5], rebound_ratio=[0.8, 0.75, 0.7], radius=[0.02, 0.02, 0.01],
+        mass=[0.04, 0.04, 0.005], inertia=[0, 0, 2e-7], model="kelvin_voigt",
+        known={"modulus1": float(restitute.shear_modulus(shore_a=90))})
+    solid = restitute.Material.read(tmp_path / "rubber.json")
+    assert solid.series.parallel_viscosity == alone.value[1]
+    assert main([*fit, "youngs_modulus=3e6,modulus1=1e6"]) == 2
+    (tmp_path / "drop.csv").write_text(
+        "speed_m_s,ez,radius_m,mass_kg\n1,0.5,0.02,0.04\n2,0.4,0.02,\n")
+    assert main([*fit, "modulus1=1e6"]) == 2
+    assert capfd.readouterr().err.endswith(
+        "drop.csv line 3 (row 2): mass_kg is empty: must be finite and > 0\n")
