@@ -13,7 +13,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 BLUE, RED, GREY = "#1f6f8b", "#c4451c", "#888888"
-plt.rcParams.update({"svg.hashsalt": "restitute", "font.size": 11, "grid.color": "#dddddd"})
+plt.rcParams.update({"svg.hashsalt": "restitute", "svg.fonttype": "none", "font.size": 11,
+                     "grid.color": "#dddddd"})
 
 
 def save(figure, path):
@@ -78,7 +79,8 @@ def main(curves, data, figures):
            xlabel="angle from the normal, degrees",  # psi_c: tan(angle) = 0.092 (4 chi - 1)/0.859
            ylabel=r"tangential restitution of the centre, $e_t$")
     beside(curves / "fem.csv", data / "fem_oblique.csv", 5.79, -1,
-           "finite elements (Chung and Ooi)", figures / "fem.svg", xlim=(0, 19), ylim=(0, 6), xticks=range(0, 19, 2),
+           "finite elements (Chung and Ooi)", figures / "fem.svg", xlim=(0, 19), ylim=(0, 6),
+           xticks=range(0, 19, 2),
            xlabel=r"$V_t/(\mu V_n)$", ylabel=r"$-R w'/(\mu V_n)$")  # psi_c: (4 chi - 1)/0.824
     sync_panels(curves, figures / "sync-panels.svg")
 

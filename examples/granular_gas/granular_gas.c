@@ -175,7 +175,6 @@ static void write_course(FILE *file, const struct experiment *e, const struct co
                 r->translational / first->translational, r->rotational / first->translational,
                 r->theory / first->translational, exponent(&course->record[decade_before(course, i)], r));
     }
-    fprintf(file, "\n\n"); /* the next data set of gnuplot */
 }
 
 static int run_all(struct experiment *experiments, int count, size_t spheres, FILE *file)

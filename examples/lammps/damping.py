@@ -63,9 +63,7 @@ def main():
               "pair_style granular\npair_coeff * * " + damped())
     with open("damping.csv", "w") as out:
         out.write("speed_m_s,angle_deg,ez_library,ex_library,ez_restitute,ex_restitute,ez_damping,ex_damping\n")
-        for n, cases in enumerate((HEAD_ON, OBLIQUE)):
-            if n:
-                out.write("\n\n")
+        for cases in (HEAD_ON, OBLIQUE):
             for (speed, angle), answer in zip(cases, library(cases)):
                 found = [value for style in styles for value in impact(speed, angle, answer["contact_time"], style)]
                 row = (speed, angle, answer["ez"], answer["ex"], *found)

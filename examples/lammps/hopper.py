@@ -6,7 +6,7 @@ engineer sees of the difference.
 
 Runs in.hopper with both laws, and prints a table. The damping is that of damping.py: LAMMPS's own
 hertz/material and mindlin, fitted at 1 m/s. Writes hopper-LAW.txt and hopper-frames.txt for
-hopper.gp.
+draw.py.
 """
 import math
 import os

@@ -10,8 +10,8 @@ from matplotlib.patches import Patch  # noqa: E402
 
 COLOURS = {"euler": "#0072b2", "sync": "#d55e00", "cvode": "#56b4e9", "paper-euler": "#009e73"}
 OTHERS = {"refused": "#bbbbbb", "unstable": "#000000", "wrong": "#ff00ff", "too slow": "#e8e8ff"}
-plt.rcParams.update({"svg.hashsalt": "restitute", "font.size": 11, "axes.grid": True,
-                     "grid.color": "#dddddd", "axes.axisbelow": True})
+plt.rcParams.update({"svg.hashsalt": "restitute", "svg.fonttype": "none", "font.size": 11,
+                     "axes.grid": True, "grid.color": "#dddddd", "axes.axisbelow": True})
 
 
 def save(figure, path):

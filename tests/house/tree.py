@@ -10,7 +10,7 @@ from pathlib import Path
 STRING = r'"(?:\\.|[^"\\\n])*"'
 C, FORTRAN, HASH = STRING + r"|(/\*.*?\*/|//[^\n]*)", STRING + r"|'[^'\n]*'|(![^\n]*)", r"(?<!\S)(#[^\n]*)"
 COMMENT = {".c": C, ".h": C, ".cpp": C, ".f90": FORTRAN, ".F90": FORTRAN, ".sh": HASH, ".cmake": HASH,
-           ".txt": HASH, ".gp": HASH}
+           ".txt": HASH}
 
 
 def files_of(tree):

@@ -23,14 +23,20 @@ DONE, FAILED, INTERRUPTED = 0, 1, 130
 _NAMED_FAILURES = 5
 
 
-def run(arguments):
+def run(arguments, made=None):
     """Solve the rows of a file or a grid.
 
     Everything that can be refused is, before anything is written.
+
+    Parameters
+    ----------
+    made : optional
+        Instead of them `made.cases`, and `made.source` for the record. At the end
+        `made.finish(batch)` gives the exit status.
     """
     _check_options(arguments)
     with _scheduler(arguments) as executor:
-        batch = _Batch(arguments)
+        batch = _Batch(arguments, made)
         try:
             batch.open()
             batch.solve(executor)
@@ -49,7 +55,7 @@ def run(arguments):
             raise Refusal(f"{text}{more}") from None
         finally:
             batch.leave()
-    return batch.report()
+    return made.finish(batch) if made else batch.report()
 
 
 def _check_options(arguments):
@@ -85,7 +91,7 @@ class _Batch:
         Where they are; None: a stream.
     """
 
-    def __init__(self, arguments):
+    def __init__(self, arguments, made):
         from restitute.solving import options as checked
 
         self.arguments, self.output = arguments, arguments.output
@@ -95,9 +101,12 @@ class _Batch:
         self.given = problem.values_of(arguments)
         self.solution = problem.solution(arguments, method="euler", tolerance=1e-3)
         self.limits = checked(**self.solution)
-        self.cases, source = (case_files.read(arguments.input) if arguments.input is not None else
-                              grid.read(arguments.grid))
-        other = self.cases.check(self.given, problem.place_of_options(arguments))
+        if made:
+            self.cases, source, other = made.cases, made.source, []
+        else:
+            self.cases, source = (case_files.read(arguments.input) if arguments.input is not None
+                                  else grid.read(arguments.grid))
+            other = self.cases.check(self.given, problem.place_of_options(arguments))
         self.axes = self._figure_axes() if arguments.figure else None
         materials = {name: texts for name in ("material", "partner")
                      if (texts := self.cases.materials(name)) is not None}
