@@ -20,6 +20,7 @@ import fcntl
 import os
 import stat
 from contextlib import suppress
+from typing import Any
 
 from restitute.command.options import Refusal, emit, write_all
 
@@ -40,7 +41,9 @@ class Place:
     """
 
     def __init__(self, path):
-        self.target, self.status, self.through, self.descriptor = path, None, False, None
+        self.target, self.through = path, False
+        self.status: Any = None
+        self.descriptor: Any = None
         self._follow_links()
         self.folder = os.path.dirname(self.target) or "."
         mode = self.status.st_mode if self.status else stat.S_IFREG
@@ -314,19 +317,24 @@ class _Item:
 
     def __init__(self, name, path, written):
         self.name, self.path, self.written = name, "-" if path is None else path, written
-        self.descriptor = self._identity = None
+        self.descriptor: Any = None
+        self._identity: Any = None
         with suppress(OSError):
             if self.path == "-":
                 self.descriptor = int(written)
-                status = os.fstat(self.descriptor)
+                self._identify(os.fstat(self.descriptor))
+                return
+            place = Place(self.path)
+            self.descriptor = place.descriptor
+            if place.status:
+                self._identify(place.status)
             else:
-                place = Place(self.path)
-                self.descriptor, status = place.descriptor, place.status
-                if status is None:
-                    folder = os.stat(place.folder)
-                    self._identity = (folder.st_dev, folder.st_ino, os.path.basename(place.target))
-            if status and stat.S_ISREG(status.st_mode):
-                self._identity = (status.st_dev, status.st_ino)
+                folder = os.stat(place.folder)
+                self._identity = (folder.st_dev, folder.st_ino, os.path.basename(place.target))
+
+    def _identify(self, status):
+        if stat.S_ISREG(status.st_mode):
+            self._identity = (status.st_dev, status.st_ino)
 
     def same(self, other):
         """Whether both are one file."""
