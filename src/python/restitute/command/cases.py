@@ -265,7 +265,7 @@ class Cases:
         special = {"material": restitute.Material.elastic(1e6, density=1e3), "partner": "rigid",
                    "rotation_blocked": False, "shore_a": 50.0, "poisson_ratio": 0.3}
         values = {name: special.get(name, 1.0) for name in self.known}
-        for one, alternative in (("density", "mass"), ("density2", "mass2")):
+        for one, alternative in problem.EXCLUSIVE:
             if one in values:
                 values.pop(alternative, None)
         if "delta1" in values and not {"gamma", "delta2"} & {*values, *given}:

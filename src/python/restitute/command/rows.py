@@ -127,7 +127,7 @@ class Rows:
             known = dict(zip(texts, numbers(texts, options.number)[0].tolist()))
             value = np.array([known[cell] for cell in columns[k]])
             good = np.where(solved, (value >= low) & (value <= high),
-                            [cell == "" for cell in columns[k]])
+                            np.array([cell == "" for cell in columns[k]], bool))
             for i in np.flatnonzero(~good)[:1]:
                 must = words if solved[i] else "must be empty, since method is empty"
                 yield int(i), f'{name} = "{columns[k][i][:64]}": {must}'
