@@ -2,6 +2,7 @@
 """Batches and grids of the command, beyond what tests/cli asks of them: what a cell may be, what is
 said of many rows, other formats, resume from any byte, elsewhere."""
 import csv
+import io
 import json
 import os
 import pathlib
@@ -34,7 +35,7 @@ def run(tmp_path, capfd):
             words = ("--input", "cases.csv", *words)
         status = main(["pair", *words])
         out, err = capfd.readouterr()
-        return status, list(csv.DictReader(out.splitlines())), err
+        return status, list(csv.DictReader(io.StringIO(out))), err
     return call
 
 
@@ -65,8 +66,8 @@ def test_a_cell_may_be_a_fraction_and_a_column_have_an_older_name(run):
 
 
 def test_unknown_columns_are_passed_through_and_named(run):
-    status, table, err = run('label,psi,note\n"a, b",1,7\n#c,2,\n"#d",3,x\n')
-    assert status == 0 and [row["label"] for row in table] == ["a, b", "#d"]
+    status, table, err = run('label,psi,note\n"a, b",1,7\n#c,2,\n"#d\n\n#e",3,x\n')
+    assert status == 0 and [row["label"] for row in table] == ["a, b", "#d\n\n#e"]
     assert [row["note"] for row in table] == ["7", "x"]
     assert err == "restitute: remark: cases.csv: passed through as unknown: label, note\n"
 
@@ -163,7 +164,8 @@ def test_a_run_goes_on_from_any_byte_with_the_same_end(run):
         whole = file.read()
     with open("whole.csv.meta.json") as file:
         settings = json.load(file)["settings"]
-    for length in range(0, len(whole) + 1, 8):
+    assert run(text, "--gamma", "1", "--output", "whole.json", "--format", "json")[0] == 1
+    for length in (*range(0, len(whole), 8), len(whole)):
         with open("cut.csv.partial", "wb") as file:
             file.write(whole[:length])
         with open("cut.csv.partial.json", "w") as file:
@@ -171,7 +173,12 @@ def test_a_run_goes_on_from_any_byte_with_the_same_end(run):
         assert run(text, "--gamma", "1", "--output", "cut.csv", "--resume")[0] == 1
         with open("cut.csv", "rb") as file:
             assert file.read() == whole, length
-        os.remove("cut.csv")
+    os.replace("cut.csv", "cut.json.partial")
+    with open("cut.json.partial.json", "w") as file:
+        json.dump(settings, file)
+    assert run(text, "--gamma", "1", "--output", "cut.json", "--format", "json", "--resume")[0] == 1
+    with open("whole.json") as one, open("cut.json") as other:
+        assert json.load(one)["results"] == json.load(other)["results"]
 
 
 def test_what_is_written_is_read_back_exactly():
@@ -223,8 +230,8 @@ def test_progress_with_the_time_left_is_shown_on_a_terminal_only():
         file.write("psi\n" + "0.5\n" * 500)
     terminal, other_end = pty.openpty()
     subprocess.run([sys.executable, "-m", "restitute.command", "pair", "--input", "cases.csv",
-                    "--method", "sync", "--output", "out.csv"], check=True, stderr=other_end, timeout=60,
-                   env={**os.environ, "PYTHONPATH": str(PACKAGE)})
+                    "--method", "sync", "--output", "out.csv"], check=True, timeout=60,
+                   stderr=other_end, env={**os.environ, "PYTHONPATH": str(PACKAGE)})
     os.close(other_end)
     shown = os.read(terminal, 100000).decode()
     os.close(terminal)
