@@ -92,7 +92,7 @@ expect 0 fit --input heights.csv $ball --model kelvin_voigt --known modulus1=1e6
 expect 1 fit --input drop.csv $ball --model prony --terms 1e-5,1e-4,1e-3,1e-2,1e-1
 has err 'the data do not'
 
-if have gnuplot; then
+if have_module matplotlib; then
     expect 0 fit --input drop.csv $ball --figure fit.svg
     has fit.svg 'residuals'
 fi

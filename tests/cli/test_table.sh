@@ -70,7 +70,7 @@ has out '"a, ""b""",3,'
 has err 'whose ends are taken: 1'
 
 # The figure.
-if have gnuplot; then
+if have_module matplotlib; then
     expect 0 table build $scene --speed 0.01:10 --tolerance 1e-3 --output f.h5 --figure f.svg
     has f.svg '<svg' 'slide'
 fi
