@@ -12,7 +12,7 @@ matplotlib.use("agg")
 
 from restitute.paper import SPECS, Check, Figure  # noqa: E402
 from restitute.paper.impacts import Random, draw, in_numbers  # noqa: E402
-from restitute.paper.slip import critical_psi  # noqa: E402
+from restitute.paper.slip import Foundation, critical_psi  # noqa: E402
 
 ENDS = {"fig4": 120, "fig5": 4636, "fig6": 288, "fig7": 240, "fig8": 4636, "fig9": 4636,
         "fig10": 64, "fig11": 64, "maxwell": 192, "temperature": 246, "tangent": 280,
@@ -99,6 +99,35 @@ def test_simulated_psi_c_converges_to_the_formula_with_the_elements():
               for elements in (8, 16)]
     # First order: about half (0.57 and 0.44 at so few elements); 7e-4 as in the gallery.
     assert np.all(errors[0] < 8e-4) and np.all(errors[1] < 0.65 * errors[0])
+
+
+def sticks(psi, delta1, gamma, radius, time, elements):
+    """Whether an element sticks at some time, by the paper's algorithm step by step."""
+    half, spacing, step = elements + elements // 4 + 1, radius / elements, time / (64 * elements)
+    normal, shear = (Foundation(np.array([delta1]), np.array([gamma]), np.array([[step]]), half)
+                     for _ in range(2))
+    depth, v, u, stuck = 0.0, 1.0, psi, False
+    profile = ((np.arange(half) + 0.5) * spacing) ** 2
+    for _ in range(2 * 64 * elements):
+        depth += step * v
+        rest, rest_x = normal.at_rest(), shear.at_rest()
+        force = np.maximum(rest + normal.stiffness * (depth - profile - normal.u), 0)
+        trial = rest_x + shear.stiffness * step * u
+        stuck = stuck or bool(np.any((force > 0) & (abs(trial) <= force)))
+        force_x = np.clip(trial, -force, force)
+        normal.move(force, rest)
+        shear.move(force_x, rest_x)
+        v -= step * 15 / 8 * spacing * force.sum()
+        u -= step * 15 / 4 * 7 / 6 * spacing * force_x.sum()
+    return stuck
+
+
+@pytest.mark.parametrize("gamma", [0.0, 0.3])
+def test_elements_stick_below_psi_c_and_not_above(gamma):
+    result = restitute.pair(chi=7 / 6, psi=1, delta1=0.5, gamma=gamma, method="sync")
+    of = (0.5, gamma, float(result.max_contact_radius), float(result.contact_time), 8)
+    psi = critical_psi(7 / 6, *(np.array([x]) for x in of[:4]), 8)[0]
+    assert sticks(psi * (1 - 1e-9), *of) and not sticks(psi * (1 + 1e-9), *of)
 
 
 def test_the_map_of_figure_5_has_its_lines_and_marks(monkeypatch):

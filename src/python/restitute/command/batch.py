@@ -22,10 +22,17 @@ _NAMED_FAILURES = 5
 _FORMATS = {".h5": "hdf5", ".hdf5": "hdf5"}
 
 
-def run(arguments):
+def run(arguments, made=None):
     """Solve the rows of a file or a grid. Everything that can be refused is, before anything is
-    written."""
-    batch = _Batch(arguments)
+    written.
+
+    Parameters
+    ----------
+    made : optional
+        Instead of them `made.cases`, and `made.source` for the record. At the end
+        `made.finish(batch, interrupted)` gives the exit status.
+    """
+    batch = _Batch(arguments, made)
     with _interrupts() as interrupts, _scheduler(arguments) as executor:
         try:
             batch.solve(executor, interrupts)
@@ -37,7 +44,7 @@ def run(arguments):
             raise Refusal(batch.left(why)) from None
         finally:
             batch.leave()
-    return batch.report()
+    return made.finish(batch, interrupts.came) if made else batch.report()
 
 
 class _Batch:
@@ -51,7 +58,7 @@ class _Batch:
         None: a stream.
     """
 
-    def __init__(self, arguments):
+    def __init__(self, arguments, made=None):
         self.arguments, self.done, self.partial, self.stream = arguments, 0, None, None
         self.output, self.figure = arguments.output, arguments.figure
         _check_options(arguments)
@@ -61,9 +68,12 @@ class _Batch:
             options.need("h5py", f"--output = {self.output}")
         self.given = problem.values_of(arguments)
         self.solution = problem.solution(arguments, method="euler", tolerance=1e-3)
-        self.cases, source = (case_files.read(arguments.input) if arguments.input is not None else
-                              grid.read(arguments.grid))
-        other = self.cases.check(self.given, problem.place_of_options(arguments))
+        if made:
+            self.cases, source, other = made.cases, made.source, []
+        else:
+            self.cases, source = (case_files.read(arguments.input) if arguments.input is not None
+                                  else grid.read(arguments.grid))
+            other = self.cases.check(self.given, problem.place_of_options(arguments))
         if self.figure:
             self.axes = self._figure_axes()
         from restitute.solving import options as checked

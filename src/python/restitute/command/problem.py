@@ -278,6 +278,10 @@ def keywords(values, place):
         if one in given and other in given:
             raise Refusal(f"{place(one)} and {place(other)} are both given: one determines the "
                           "other")
+    partner = given.get("partner", "rigid")
+    if "time_shift" in given and isinstance(partner, str) and partner not in ("rigid", "same"):
+        raise Refusal(f"{place('partner')} = {partner[:64]}: the material must be a file without "
+                      f"{place('time_shift')}, with its times shifted")
     if not given:
         raise Refusal("no impact is described: give psi, delta1, gamma or a material, radius, "
                       "speed; see restitute pair --help")

@@ -88,7 +88,9 @@ def settings(arguments, inputs, **defaults):
     given = problem.values_of(arguments)
     values = {problem.FIELDS[name].key if name in problem.FIELDS else name: of_number(value)
               if isinstance(value, float) else value for name, value in given.items()}
-    solution = problem.solution(arguments, **{"method": "euler", "tolerance": 1e-3, **defaults})
+    usual = {"method": "euler", "tolerance": 1e-3, "elements": "chosen", "time_step": "chosen",
+             "max_work": 10.0, "time_limit": "default"}
+    solution = problem.solution(arguments, **{**usual, **defaults})
     record = {"version": restitute.version(), **{name: of_number(value) if isinstance(value, float) else value
                                                  for name, value in solution.items()}, "values": values}
     for name in ("material", "partner"):

@@ -51,15 +51,24 @@ def draw(random: Random, psi, delta1, gamma, tau) -> dict:
     speed, friction = random.log(1e-4, 0.1), random.log(0.05, 1)
     share = random.even(0, 1)
     k = 1 / (CHI * (2 - nu) / (1 - nu) - 1)  # J = k m R^2 of both spheres (22)
-    bodies = [_sphere(random)]
-    partner = "rigid"
+    bodies, partner = [_sphere(random), (math.inf, math.inf)], "rigid"
     if random.bits() % 2:
-        bodies.append(_sphere(random))
+        bodies[1] = _sphere(random)
         partner = "same" if random.bits() % 2 else "rigid"
     mass, radius = (1 / sum(1 / body[i] for body in bodies) for i in (0, 1))
     effective = modulus / (2 if partner == "same" else 1)
     a_el = (15 * mass * speed**2 * radius**2 * (1 - nu) / (32 * effective)) ** 0.2  # (24)
-    row = {"modulus1": modulus, "modulus2": math.inf, "viscosity": 0.0, "poisson_ratio": nu}
+    # (22) solved for the sliding speed, of which a share is the centre's and the rest the spin's
+    sliding = (psi or 1.0) * friction * speed * (2 - nu) / (2 - 2 * nu)
+    row = {}
+    for (m, r), own in zip(bodies, ("", "2")):
+        row.update({f"radius{own}": r, f"mass{own}": m,
+                    f"inertia{own}": k * m * r**2 if m < math.inf else 0.0})
+    row.update(speed=math.hypot(speed, share * sliding),
+               angle=math.degrees(math.atan2(share * sliding, speed)),
+               spin=(1 - share) * sliding / row["radius"], friction=friction if psi else math.inf,
+               modulus1=modulus, modulus2=math.inf, viscosity=0.0, poisson_ratio=nu,
+               partner=partner)
     if not math.isnan(tau):
         row.update(modulus1=0.0, modulus2=modulus,
                    viscosity=modulus * tau * a_el**2 / (radius * speed))
@@ -67,15 +76,6 @@ def draw(random: Random, psi, delta1, gamma, tau) -> dict:
         row["viscosity"] = (delta1 / math.sqrt(a_el / (effective * mass * (1 - nu)))
                             * modulus / effective)
         row["modulus2"] = modulus / gamma if gamma > 0 else math.inf
-    row.update(partner=partner, radius2=math.inf, mass2=math.inf, inertia2=0.0)
-    for body, own in zip(bodies, ("", "2")):
-        row.update({f"radius{own}": body[1], f"mass{own}": body[0],
-                    f"inertia{own}": k * body[0] * body[1] ** 2})
-    # (22) solved for the sliding speed, of which a share is the centre's and the rest the spin's
-    sliding = (psi or 1.0) * friction * speed * (2 - nu) / (2 - 2 * nu)
-    row.update(friction=friction if psi else math.inf, speed=math.hypot(speed, share * sliding),
-               angle=math.degrees(math.atan2(share * sliding, speed)),
-               spin=(1 - share) * sliding / bodies[0][1])
     return row
 
 

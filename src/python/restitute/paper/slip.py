@@ -4,6 +4,9 @@
 (5), (8)-(17): positions first, then the forces of all elements, the inner displacements by backward
 Euler, velocities last; fixed step, fixed elements; friction on a slipping element has the direction
 of the trial force. It shares no code with the library, nor the formula (31).
+
+As long as all elements slip, their forces do not depend on psi, and the sliding velocity is psi
+less what friction took. So one run tells for every element and step up to which psi it would stick.
 """
 from __future__ import annotations
 
@@ -26,11 +29,11 @@ class Foundation:
         self.stiffness = 1 + np.where(gamma > 0, 0, theta)[:, None] / step + self.arm
         self.u, self.w = np.zeros((2, len(step), half))
 
-    def at_rest(self):
+    def at_rest(self) -> np.ndarray:
         """b, shape (n, half)."""
         return self.u + self.arm * self.w
 
-    def move(self, force, at_rest):
+    def move(self, force: np.ndarray, at_rest: np.ndarray) -> None:
         """Move the elements so that they bear these forces."""
         distance = (force - at_rest) / self.stiffness
         self.u += distance
@@ -38,7 +41,7 @@ class Foundation:
 
 
 def critical_psi(chi, delta1, gamma, radius, time, elements: int) -> np.ndarray:
-    """Least psi without stick at any time in any element, by bisection.
+    """Largest psi at which some element sticks at some time.
 
     Parameters
     ----------
@@ -57,40 +60,22 @@ def critical_psi(chi, delta1, gamma, radius, time, elements: int) -> np.ndarray:
     """
     half, steps = elements + elements // 4 + 1, 64 * elements
     spacing, step = (np.asarray(radius) / elements)[:, None], (np.asarray(time) / steps)[:, None]
-    forces = _normal_forces(Foundation(delta1, gamma, step, half), spacing, step, 20 * steps)
-    low, high = np.ones(len(step)), np.full(len(step), 4 * chi)  # psi_c <= 4 chi - 1
-    while np.max(high - low) > 1e-7:
-        psi = 0.5 * (low + high)
-        stuck = _sticks(Foundation(delta1, gamma, step, half), forces, chi, psi, spacing, step)
-        low, high = np.where(stuck, psi, low), np.where(stuck, high, psi)
-    return np.where(forces[-1].any(axis=1), np.nan, 0.5 * (low + high))
-
-
-def _normal_forces(foundation, spacing, step, most):
-    """Forces of all elements, step by step until all spheres have separated."""
-    profile = ((np.arange(foundation.u.shape[1]) + 0.5) * spacing) ** 2
-    depth, velocity = np.zeros_like(step), np.ones_like(step)
-    forces: list[np.ndarray] = []
-    while len(forces) < most and (not forces or forces[-1].any() or (velocity > 0).any()):
+    normal, shear = (Foundation(delta1, gamma, step, half) for _ in range(2))
+    profile = ((np.arange(half) + 0.5) * spacing) ** 2
+    depth, velocity, taken = np.zeros_like(step), np.ones_like(step), np.zeros_like(step)
+    psi = np.zeros(len(step))
+    for _ in range(20 * steps):
         depth += step * velocity
-        rest = foundation.at_rest()
-        force = np.maximum(rest + foundation.stiffness * (depth - profile - foundation.u), 0)
-        foundation.move(force, rest)
-        velocity -= step * 15 / 8 * spacing * force.sum(axis=1, keepdims=True)
-        forces.append(force)
-    return forces
-
-
-def _sticks(foundation, forces, chi, psi, spacing, step):
-    """Whether some element sticks at some time, shape (n,)."""
-    velocity, stuck = psi[:, None].copy(), np.zeros(len(step), bool)
-    for normal in forces:
-        rest = foundation.at_rest()
-        trial = rest + foundation.stiffness * step * velocity
-        force = np.clip(trial, -normal, normal)
-        stuck |= ((force == trial) & (normal > 0)).any(axis=1)
-        if stuck.all():
-            break
-        foundation.move(force, rest)
-        velocity -= step * 15 / 4 * chi * spacing * force.sum(axis=1, keepdims=True)
-    return stuck
+        rest, rest_x = normal.at_rest(), shear.at_rest()
+        force = np.maximum(rest + normal.stiffness * (depth - profile - normal.u), 0)
+        touching = force > 0
+        if not touching.any() and (velocity < 0).all():
+            return psi
+        sticks_up_to = taken + (force - rest_x) / (shear.stiffness * step)
+        psi = np.maximum(psi, np.max(sticks_up_to, axis=1, where=touching, initial=0))
+        normal.move(force, rest)
+        shear.move(force, rest_x)
+        total = spacing * force.sum(axis=1, keepdims=True)
+        velocity -= step * 15 / 8 * total
+        taken += step * 15 / 4 * chi * total
+    return np.where(touching.any(axis=1), np.nan, psi)
