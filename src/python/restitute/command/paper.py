@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`restitute paper`: figures by name, one after the other, each a batch of its own whose rows become
-a CSV, a figure and checks."""
+"""`restitute paper`: figures by name, each a batch of its own whose rows become a CSV, a figure and
+checks."""
 import argparse
 import io
 import os
