@@ -107,7 +107,7 @@ restitute_decide(RESTITUTE_FIT "the component fit" RESTITUTE_WITH_FIT #
                  GSL_FOUND "GSL 2.7 (Debian: libgsl-dev, found by pkg-config)" #
                  Threads_FOUND "POSIX threads")
 
-# The first Python that has what the package needs: the one of the path may be another than Debian's.
+# The first Python that has what the package needs: that of the path may be another than Debian's.
 if(RESTITUTE_PYTHON)
   include(restitute-python)
 endif()

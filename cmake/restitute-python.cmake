@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Finds a Python that has NumPy and cffi: Python3_EXECUTABLE if it is given, else the first of these that has them.
-# Sets RESTITUTE_PYTHON_FOUND and Python3_EXECUTABLE. pip builds wheels in an environment without NumPy, which the
-# build does not need.
+# Finds a Python that has NumPy and cffi: Python3_EXECUTABLE if it is given, else the first of these
+# that has them. Sets RESTITUTE_PYTHON_FOUND and Python3_EXECUTABLE. pip builds wheels in an
+# environment without NumPy, which the build does not need.
 set(RESTITUTE_PYTHON_FOUND OFF)
 set(modules numpy,cffi)
 if(SKBUILD)

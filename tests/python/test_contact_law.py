@@ -116,7 +116,7 @@ def test_times_broadcast_and_fall_with_the_fifth_root_of_the_speed():
 def test_options_are_checked_by_name(rubber):
     with pytest.raises(restitute.DomainError, match="elements = 9"):
         restitute.ContactLaw(rubber, elements=9)
-    with pytest.raises(AttributeError, match="element"):
+    with pytest.raises(TypeError, match="'element' is not one of deformable, elements"):
         restitute.ContactLaw(rubber, element=8)
     with pytest.raises(restitute.DomainError, match="partner = 'wall'"):
         restitute.ContactLaw(rubber, partner="wall")
@@ -125,6 +125,14 @@ def test_options_are_checked_by_name(rubber):
         restitute.ContactLaw(pib)
     with pytest.warns(restitute.ToleranceWarning, match="misses G.t. of the 30 terms"):
         assert restitute.ContactLaw(pib, shortest=1e-6, longest=1e-2).state_size > 48
+
+
+def test_members_of_a_motion_are_checked_by_name(rubber):
+    law = restitute.ContactLaw(rubber)
+    with pytest.raises(TypeError, match="'frict' is not one of overlap, normal"):
+        law.step(law.states(1), 1e-6, overlap=1e-6, radius=RADIUS, frict=0.3)
+    with pytest.raises(restitute.DomainError, match="motions: 3 are given, must be 1"):
+        law.step(law.states(1), 1e-6, law.motions(3))
 
 
 def test_both_bodies_deform_at_half_the_stiffness(rubber):

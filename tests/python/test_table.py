@@ -142,6 +142,12 @@ def test_a_saved_table_loads_with_the_same_bits(table, speeds, tmp_path):
         table.save(tmp_path / "none" / "rubber.h5")
 
 
+def test_an_installation_without_files_says_what_else_keeps_a_table(table, monkeypatch):
+    monkeypatch.delitem(_library.LIBRARIES, "table_files", raising=False)
+    with pytest.raises(restitute.errors.MissingComponent, match="use pickle"):
+        table.save("never.h5")
+
+
 def test_bad_options_and_scenes_are_refused_by_name(rubber):
     for words, change in (
             ("tolerance = 1: must be", dict(tolerance=1)),

@@ -103,6 +103,9 @@ def struct(name, component="core", **members):
     library = globals().get(component) or __getattr__(component)
     getattr(library, f"restitute_{name}_init_sized")(value, ffi.sizeof(value[0]))
     for member, content in members.items():
+        if not hasattr(value, member):
+            known = [one for one, _ in ffi.typeof(value[0]).fields if one != "struct_size"]
+            raise TypeError(f"'{member}' is not one of {', '.join(known)}")
         setattr(value, member, content)
     return value
 

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import queue
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import BrokenExecutor, Future, ProcessPoolExecutor
+from concurrent.futures import BrokenExecutor, CancelledError, Future, ProcessPoolExecutor
+from functools import partial
 from typing import Any
 
 __all__ = ["map_chunks"]
@@ -53,13 +54,35 @@ def map_chunks(function: Callable[[Any], Any], chunks: Iterable[Any], executor: 
         run.end()
 
 
+class _Dask:
+    """A client of dask. Its own executor loses a result that dies with its worker: there the future
+    is cancelled."""
+
+    def __init__(self, client):
+        self.client = client
+
+    def submit(self, function, item):
+        future: Any = Future()
+        future.of_dask = self.client.submit(function, item, pure=False)
+        future.of_dask.add_done_callback(partial(self._pass_on, future))
+        return future
+
+    @staticmethod
+    def _pass_on(future, of_dask):
+        if not future.set_running_or_notify_cancel():
+            return
+        try:
+            future.set_result(of_dask.result())
+        except BaseException as error:
+            future.set_exception(error)
+
+
 class _Run:
     """Chunks on their way through an executor."""
 
     def __init__(self, function, items, executor, retries):
         self.function, self.items, self.retries = function, items, retries
-        of_dask = getattr(executor, "get_executor", None)
-        self.executor = of_dask(pure=False) if of_dask else executor
+        self.executor = _Dask(executor) if hasattr(executor, "scheduler_info") else executor
         self.own: ProcessPoolExecutor | None = None  # a pool in place of the caller's that broke
         self.tries = [0] * len(items)
         self.pending: dict[Future, tuple[int, Any]] = {}
@@ -96,7 +119,8 @@ class _Run:
 
     def again(self, index, executor, error):
         """Send a chunk again whose worker died; any other failure is the function's own."""
-        died = isinstance(error, BrokenExecutor) or type(error).__name__ == "KilledWorker"
+        died = isinstance(error, (BrokenExecutor, CancelledError))
+        died |= type(error).__name__ == "KilledWorker"
         self.tries[index] += 1
         if not died or self.tries[index] > self.retries:
             raise error
@@ -116,7 +140,8 @@ class _Run:
             initargs=broken._initargs)
 
     def end(self):
-        for future in list(self.pending):
+        for future in self.pending:
             future.cancel()
+            getattr(future, "of_dask", future).cancel()
         if self.own:
             self.own.shutdown(wait=False)

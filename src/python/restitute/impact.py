@@ -65,8 +65,11 @@ class Pairs(Columns):
         return options(**self._asked)
 
     def message(self, *index: Any) -> str:
-        """Why the impact at this index failed, or the library's remarks on it; empty if there are
-        none."""
+        """Why the impact at this index failed, or the library's remarks on it; or an empty text.
+
+        >>> pair(psi=[1, -1], on_error="nan").message(1)
+        'psi = -1: must be in [0, 1e+12] or inf'
+        """
         flat = int(np.ravel_multi_index(index, self.shape)) if index else 0
         strained = np.ravel(self.status)[flat] != 0 or np.ravel(self.flags)[flat] != 0
         if strained and flat not in self._messages and self.impacts is not None:
@@ -76,7 +79,11 @@ class Pairs(Columns):
 
     def words(self) -> np.ndarray:
         """A line for each impact, an array of str of the shape: empty, or a remark and the names
-        of limits that are passed ("FAST LARGE_CONTACT"), or why it failed."""
+        of limits that are passed ("FAST LARGE_CONTACT"), or why it failed.
+
+        >>> pair(psi=[1, -1], on_error="nan").words()
+        array(['', 'psi = -1: must be in [0, 1e+12] or inf'], dtype=object)
+        """
         status = np.ravel(self.status)
         kinds, place = np.unique(status * 16 + np.ravel(self.flags), return_inverse=True)
         lines = np.array([_line(*divmod(int(kind), 16)) for kind in kinds], object)[place.ravel()]

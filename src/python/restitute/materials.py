@@ -213,14 +213,22 @@ class Material:
         return (self.series.equilibrium_modulus + sine**2 @ self.series.modulus + 0 * omega)[()]
 
     def loss_modulus(self, frequency: Any) -> Any:
-        """G''(omega) in Pa at angular frequencies >= 0 (rad/s), in their shape; nan elsewhere."""
+        """G''(omega) in Pa at angular frequencies >= 0 (rad/s), in their shape; nan elsewhere.
+
+        >>> Material.kelvin_voigt(1e6, 50.0).loss_modulus([0, 1e3])
+        array([    0., 50000.])
+        """
         omega, sine, cosine = self._sine_cosine(frequency)
         viscous = self.series.parallel_viscosity * omega
         return ((sine * cosine) @ self.series.modulus + viscous)[()]
 
     def shifted(self, time_shift: float) -> Material:
         """The same solid with all relaxation times and viscosities times `time_shift`, the a_T of
-        a temperature."""
+        a temperature.
+
+        >>> Material.maxwell(1e6, 50.0).shifted(10).series.relaxation_time
+        array([0.0005])
+        """
         if time_shift == 1:
             return self
         about = dict(zip(_ABOUT, self._about()))

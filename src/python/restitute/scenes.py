@@ -315,10 +315,12 @@ def combine(material: Any, partner: Any, time_shift: Any) -> tuple[list[Material
 
 
 def _objects(value) -> np.ndarray:
-    """An array of Materials or words."""
+    """An array of Materials or words; a word is no sequence."""
+    if not isinstance(value, (str, os.PathLike)):
+        return np.asarray(value, object)
     array = np.empty((), object)
     array[()] = value
-    return np.asarray(value, object) if isinstance(value, (list, tuple, np.ndarray)) else array
+    return array
 
 
 def _span(values: Any, unit: str, scale: float = 1.0) -> str:

@@ -157,14 +157,16 @@ class Table:
         ------
         FileError, FormatError
             It cannot be read; it is no table, or damaged.
+        MissingComponent
+            This installation has no component table_files, as a wheel; `pickle` keeps a table, too.
         """
         handle = ffi.new("restitute_table **")
-        call(_library.table_files.restitute_table_read, _library.string(path), handle)
+        call(_files().restitute_table_read, _library.string(path), handle)
         return cls(handle[0])
 
     def save(self, path: str | os.PathLike) -> None:
         """Write the table into an HDF5 file, whole or not at all (`FileError`)."""
-        call(_library.table_files.restitute_table_write, self._handle, _library.string(path))
+        call(_files().restitute_table_write, self._handle, _library.string(path))
 
     @classmethod
     def from_data(cls, data: dict[str, Any]) -> Table:
@@ -366,6 +368,14 @@ class Table:
         low, high = self.speed
         return (f"<restitute.Table {low:.4g} to {high:.4g} m/s, errors {self.info.error_ez:.1g}, "
                 f"{self.info.error_ex:.1g}>")
+
+
+def _files():
+    if not _library.available("table_files"):
+        raise errors.MissingComponent(
+            "the component table_files (HDF5) is not installed with this package: use pickle, or "
+            "build from source")
+    return _library.table_files
 
 
 def _struct(contact):
