@@ -273,7 +273,8 @@ class _Batch:
         note = ", ".join(f"{name.replace('_', ' ')} {value:g}" + (
             f" {problem.FIELDS[name].unit}" if problem.FIELDS[name].unit != "1" else "")
             for name, value in self.given.items() if name in problem.FIELDS)
-        ax = plot.sheet(2, title, note, f"restitute {restitute.version()}")
+        ax = plot.sheet(2, title, note, f"restitute {restitute.version()}, method "
+                        f"{self.solution['method']}, tolerance {self.solution['tolerance']:g}")
         ez, ex = self.rows.values[:2]
         pairs = SimpleNamespace(ez=ez, ex=ex, flags=self.rows.flags())
         plot.grid(self._columns(), pairs, axes=self.axes, contours=self.arguments.contours,
