@@ -11,8 +11,8 @@
 # clang-14. Runs as root or by sudo; where nothing is missing it does nothing and needs neither.
 set -eu
 
-run_packages="cmake ninja-build gcc gfortran libc6-dev pkg-config libpopt-dev libjansson-dev libcsv-dev libsundials-dev
-    libhdf5-dev libfftw3-dev libgsl-dev gnuplot-nox python3 python3-cffi python3-h5py python3-matplotlib python3-numpy
+run_packages="cmake ninja-build gcc gfortran libc6-dev pkg-config libjansson-dev libsundials-dev
+    libhdf5-dev libfftw3-dev libgsl-dev python3 python3-cffi python3-h5py python3-matplotlib python3-numpy
     python3-tqdm"
 test_packages="g++ libcmocka-dev liggghts libliggghts-dev locales mandoc mpi-default-dev mypy python3-distributed
     python3-mpi4py python3-pytest python3-venv valgrind"

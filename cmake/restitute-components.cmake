@@ -50,19 +50,16 @@ restitute_decide(RESTITUTE_OPENMP "batches by several threads" RESTITUTE_WITH_OP
 
 if(RESTITUTE_FILES)
   restitute_find_pkg_config_library(JANSSON jansson)
-  find_package(Libcsv QUIET)
 endif()
 restitute_decide(RESTITUTE_FILES "the component files" RESTITUTE_WITH_FILES #
-                 JANSSON_FOUND "Jansson (Debian: libjansson-dev, found by pkg-config)" #
-                 Libcsv_FOUND "libcsv (Debian: libcsv-dev)")
+                 JANSSON_FOUND "Jansson (Debian: libjansson-dev, found by pkg-config)")
 
 restitute_decide(RESTITUTE_CONTACT "the component contact" RESTITUTE_WITH_CONTACT)
 
 restitute_decide(RESTITUTE_TABLE "the component table" RESTITUTE_WITH_TABLE)
 
-# The serial HDF5 goes before whatever stands under the plain name, which may want MPI. The command
-# takes it too where it is there.
-if(RESTITUTE_TABLE_FILES OR RESTITUTE_COMMAND)
+# The serial HDF5 goes before whatever stands under the plain name, which may want MPI.
+if(RESTITUTE_TABLE_FILES)
   set(RESTITUTE_HDF5_MODULE hdf5-serial)
   restitute_find_pkg_config_library(HDF5 hdf5-serial)
   if(NOT HDF5_FOUND)
@@ -115,13 +112,6 @@ restitute_decide(RESTITUTE_PYTHON "the Python package" RESTITUTE_WITH_PYTHON #
                  BUILD_SHARED_LIBS "shared libraries (BUILD_SHARED_LIBS)" #
                  RESTITUTE_WITH_FILES "the component files (RESTITUTE_FILES)" #
                  RESTITUTE_PYTHON_FOUND "Python 3.9 with NumPy and cffi (Debian: python3-numpy, python3-cffi)")
-
-if(RESTITUTE_COMMAND)
-  restitute_find_pkg_config_library(POPT popt)
-endif()
-restitute_decide(RESTITUTE_COMMAND "the command restitute" RESTITUTE_WITH_COMMAND #
-                 RESTITUTE_WITH_FILES "the component files (RESTITUTE_FILES)" #
-                 POPT_FOUND "popt (Debian: libpopt-dev, found by pkg-config)")
 
 # The kernel needs a Fortran compiler and no more; the module is for programs that need its run-time
 # library.

@@ -16,7 +16,7 @@ if(RESTITUTE_WITH_PYTHON)
   set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3, python3-numpy, python3-cffi")
   set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-matplotlib, python3-h5py, python3-tqdm")
 endif()
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gnuplot-nox, gfortran, python3-distributed, python3-mpi4py")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gfortran, python3-distributed, python3-mpi4py")
 set(CPACK_PACKAGE_DESCRIPTION
     "Restitution pairs of viscoelastic spheres that hit obliquely, with
 friction, by the Method of Dimensionality Reduction: the command

@@ -17,3 +17,5 @@ foreach(python IN ITEMS "${Python3_EXECUTABLE}" python3 /usr/bin/python3)
     endif()
   endif()
 endforeach()
+# The command in the build tree.
+set(RESTITUTE_COMMAND_FILE "${PROJECT_BINARY_DIR}/python/bin/restitute")

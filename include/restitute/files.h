@@ -1,7 +1,7 @@
 /** @file files.h
  *  Component `files` of restitute: materials from files.
  *
- *  Link restitute::files. It needs Jansson and libcsv; the core needs neither. The rules of
+ *  Link restitute::files. It needs Jansson; the core does not. The rules of
  *  restitute.h hold here too; messages name the file, the line, the offending value and its allowed
  *  range. Numbers are read with a point, whatever locale the program has set. Where there is no
  *  memory left this component returns ERROR_MEMORY; the behaviour of Jansson is then unspecified.

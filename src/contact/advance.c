@@ -11,30 +11,22 @@
  * brought back into the tangential plane. */
 INLINE void open_states(const struct call c, struct work *s)
 {
-    for (int l = 0; l < LANES; l++)
-        s->before[l] = c.in->state[l][at_overlap];
     EACH_LANE
     {
-        const double nx = c.in->normal[0][l], ny = c.in->normal[1][l], nz = c.in->normal[2][l],
-                     turn = c.step * c.in->turn[l];
-        double ax = c.in->axis[0][l], ay = c.in->axis[1][l], az = c.in->axis[2][l];
-        const double bx = ny * az - nz * ay, by = nz * ax - nx * az, bz = nx * ay - ny * ax;
-        ax += turn * bx;
-        ay += turn * by;
-        az += turn * bz;
-        const double out = nx * ax + ny * ay + nz * az;
-        ax -= out * nx;
-        ay -= out * ny;
-        az -= out * nz;
-        const double per = 1 / sqrt(ax * ax + ay * ay + az * az);
-        s->axis[0][l] = ax * per;
-        s->axis[1][l] = ay * per;
-        s->axis[2][l] = az * per;
+        const double nx = c.in->normal[0][l], ny = c.in->normal[1][l], nz = c.in->normal[2][l];
+        const double ax = c.in->axis[0][l], ay = c.in->axis[1][l], az = c.in->axis[2][l];
+        const double out = nx * ax + ny * ay + nz * az, turn = c.step * c.in->spin[l];
+        const double x = ax - out * nx + turn * (ny * az - nz * ay);
+        const double y = ay - out * ny + turn * (nz * ax - nx * az);
+        const double z = az - out * nz + turn * (nx * ay - ny * ax);
+        const double per = 1 / sqrt(x * x + y * y + z * z);
+        s->axis[0][l] = per * x;
+        s->axis[1][l] = per * y;
+        s->axis[2][l] = per * z;
         s->other[0][l] = ny * s->axis[2][l] - nz * s->axis[1][l];
         s->other[1][l] = nz * s->axis[0][l] - nx * s->axis[2][l];
         s->other[2][l] = nx * s->axis[1][l] - ny * s->axis[0][l];
-        s->width[l] = c.in->width[l];
-        s->scale[l] = s->width[l] * s->width[l] / c.in->radius[l];
+        s->scale[l] = c.in->width[l] * c.in->width[l] / c.in->radius[l];
         s->approach[l] = nx * c.in->velocity[0][l] + ny * c.in->velocity[1][l] + nz * c.in->velocity[2][l];
     }
 }
@@ -53,9 +45,9 @@ INLINE void close_states(const struct call c, struct work *s)
     }
     EACH_LANE
     {
-        c.in->force[l] = s->force[l];
+        c.in->force[0][l] = s->force[l];
         for (int i = 0; i < 3; i++)
-            c.in->tangential[i][l] = -(s->total[0][l] * s->axis[i][l] + s->total[1][l] * s->other[i][l]);
+            c.in->force[1 + i][l] = -(s->total[0][l] * s->axis[i][l] + s->total[1][l] * s->other[i][l]);
     }
 }
 
@@ -64,8 +56,8 @@ INLINE void advance(const struct call c)
     struct work s;
     for (int k = 0; k < c.at.terms; k++)
         for (int i = 0; i < c.at.n; i++) {
-            s.even.decay[k][i] = c.r->decay[k];
-            s.even.gain[k][i] = c.r->gain[k];
+            s.even[k].decay[i] = c.r->decay[k];
+            s.even[k].gain[i] = c.r->gain[k];
         }
     open_states(c, &s);
     press(c, &s);
@@ -76,41 +68,23 @@ INLINE void advance(const struct call c)
     close_states(c, &s);
 }
 
-INLINE void advance_shape(struct call c, int terms, int surface, int turns)
+/* A usual shape is compiled on its own. */
+INLINE bool advance_usual(struct call c, int terms, int surface, int turns)
 {
-    c.at = (struct shape){8, terms, surface, 1, turns, 0};
+    const struct rst_shape usual = {8, terms, surface, 1, turns, 0};
+    if (memcmp(&usual, &c.at, sizeof usual)) return false;
+    c.at = usual;
     advance(c);
+    return true;
 }
 
-/* The usual shapes are compiled on their own: eight elements with friction, elastic, standard
- * solid, three terms, Kelvin-Voigt, the first two also with a turning point. */
+/* Usual are eight elements with friction: elastic, standard solid, three terms, Kelvin-Voigt, the
+ * first two also with a turning point. */
 void NAME(const struct rst_law *restrict law, const struct rst_rates *restrict rates, double step,
           struct rst_batch *restrict batch)
 {
-    const struct call c = {
-        law, rates, batch, step, {law->n, law->n_terms, law->surface, law->slips, law->turns, law->details}};
-    const int kind =
-        c.at.n == 8 && c.at.slips && !c.at.details ? 100 * c.at.turns + 10 * c.at.surface + c.at.terms : -1;
-    switch (kind) {
-    case 0:
-        advance_shape(c, 0, 0, 0);
-        break;
-    case 1:
-        advance_shape(c, 1, 0, 0);
-        break;
-    case 3:
-        advance_shape(c, 3, 0, 0);
-        break;
-    case 10:
-        advance_shape(c, 0, 1, 0);
-        break;
-    case 100:
-        advance_shape(c, 0, 0, 1);
-        break;
-    case 101:
-        advance_shape(c, 1, 0, 1);
-        break;
-    default:
+    const struct call c = {law, rates, batch, step, law->at};
+    if (!(advance_usual(c, 0, 0, 0) || advance_usual(c, 1, 0, 0) || advance_usual(c, 3, 0, 0) ||
+          advance_usual(c, 0, 1, 0) || advance_usual(c, 0, 0, 1) || advance_usual(c, 1, 0, 1)))
         advance(c);
-    }
 }

@@ -1,88 +1,88 @@
 /* Checks of motions and states, in words. Within their ranges all motions give finite forces.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-
 #include "base/report.h"
-#include "base/sized.h"
 #include "contact/law.h"
 
-/* Ranges in which the arithmetic does not overflow; far wider than any real radius or mass. */
-static const double least_radius = 1e-15, largest_radius = 1e15, largest_mobility = 2e30, largest_friction = 1e6;
+/* Ranges of a motion, in which the arithmetic does not overflow; far wider than any real radius or
+ * mass. */
+enum unit { one, radius, per_step, radius_per_step, unit_count };
+static const struct range {
+    const char *name;
+    size_t at; /* of a batch */
+    enum unit unit;
+    double low, high;
+} ranges[] = {{"motion.radius", offsetof(struct rst_batch, radius), one, RST_LEAST_RADIUS, RST_LARGEST_RADIUS},
+              {"motion.overlap", offsetof(struct rst_batch, overlap), radius, -1, 1},
+              {"motion.velocity[0]", offsetof(struct rst_batch, velocity[0]), radius_per_step, -1, 1},
+              {"motion.velocity[1]", offsetof(struct rst_batch, velocity[1]), radius_per_step, -1, 1},
+              {"motion.velocity[2]", offsetof(struct rst_batch, velocity[2]), radius_per_step, -1, 1},
+              {"motion.spin", offsetof(struct rst_batch, spin), per_step, -1, 1},
+              {"motion.inverse_mass", offsetof(struct rst_batch, inverse_mass[0]), per_step, 0, 2e30},
+              {"motion.inverse_tangential_mass", offsetof(struct rst_batch, inverse_mass[1]), per_step, 0, 2e30},
+              {"motion.friction", offsetof(struct rst_batch, friction), one, 0, 1e6}};
+
+/* The first range that a lane is out of: its value and bounds; NULL if there is none. Comparisons
+ * are false for NaN. */
+static const struct range *first_bad(double step, const struct rst_batch *b, int l, double found[3])
+{
+    const double units[unit_count] = {1, b->radius[l], 1 / step, b->radius[l] / step};
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
+        const struct range *r = &ranges[i];
+        const double value = ((const double *)((const char *)b + r->at))[l], unit = units[r->unit];
+        if (value >= r->low * unit && value <= r->high * unit) continue;
+        found[0] = value, found[1] = r->low * unit, found[2] = r->high * unit;
+        return r;
+    }
+    return NULL;
+}
 
 /* Of the square of the first tangential axis, what must be in the tangential plane: the normal may
  * have turned by 60 degrees towards it. */
 static const double least_in_plane = 0.25;
 
-static int is_unit(const double v[3])
+static double in_plane(const struct rst_batch *b, int l)
 {
-    return fabs(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] - 1) <= 1e-6;
+    const double nx = b->normal[0][l], ny = b->normal[1][l], nz = b->normal[2][l], ax = b->axis[0][l],
+                 ay = b->axis[1][l], az = b->axis[2][l], out = nx * ax + ny * ay + nz * az;
+    return ax * ax + ay * ay + az * az - out * out;
 }
 
-static int may_shrink(const restitute_contact_law *law, double step, const struct rst_batch *b, int l)
+static int is_unit(double x, double y, double z)
 {
-    double approach = 0;
-    for (int i = 0; i < 3; i++)
-        approach += b->normal[i][l] * b->velocity[i][l];
-    return rst_contact_may_shrink(&law->kernel, approach * step, b->overlap[l], b->radius[l], b->state[l]);
+    return fabs(x * x + y * y + z * z - 1) <= 1e-6;
 }
 
-/* Comparisons are false for NaN. A new contact has no width. */
+/* A new contact has no width. */
 int rst_all_good(const restitute_contact_law *law, double step, const struct rst_batch *b, int n)
 {
-    const double per_step = 1 / step, mobility = largest_mobility * per_step;
     int good = 1, wide = 0;
+    double found[3];
     for (int l = 0; l < n; l++) {
-        const double r = b->radius[l], fastest = r * per_step, nx = b->normal[0][l], ny = b->normal[1][l],
-                     nz = b->normal[2][l], ax = b->axis[0][l], ay = b->axis[1][l], az = b->axis[2][l];
-        const double unit = nx * nx + ny * ny + nz * nz, out = nx * ax + ny * ay + nz * az;
-        good &= (r >= least_radius) & (r <= largest_radius) & (b->overlap[l] >= -r) &
-                (b->overlap[l] * r <= b->width[l] * b->width[l]) & (b->width[l] > 0);
-        good &= (fabs(b->velocity[0][l]) <= fastest) & (fabs(b->velocity[1][l]) <= fastest) &
-                (fabs(b->velocity[2][l]) <= fastest) & (fabs(b->turn[l]) <= per_step);
-        good &= (b->inverse_mass[0][l] >= 0) & (b->inverse_mass[0][l] <= mobility) & (b->inverse_mass[1][l] >= 0) &
-                (b->inverse_mass[1][l] <= mobility) & (b->friction[l] >= 0) & (b->friction[l] <= largest_friction);
-        good &= (fabs(unit - 1) <= 1e-6) & (ax * ax + ay * ay + az * az - out * out >= least_in_plane);
-        wide |= rst_is_wide(b->overlap[l] * r, b->width[l]);
+        const double area = b->overlap[l] * b->radius[l];
+        good &= (area <= b->width[l] * b->width[l]) & (b->width[l] > 0) & (in_plane(b, l) >= least_in_plane) &
+                is_unit(b->normal[0][l], b->normal[1][l], b->normal[2][l]);
+        wide |= rst_is_wide(area, b->width[l]);
     }
     for (int l = 0; l < n; l++)
-        good &= rst_is_own(law, b->state[l]);
+        good &= rst_is_own(law, b->state[l]) && !first_bad(step, b, l, found);
     for (int l = 0; l < n && good && wide; l++)
-        good = !may_shrink(law, step, b, l);
+        good = !rst_contact_may_shrink(&law->kernel, step, b, l);
     return good;
 }
 
-int rst_check_motion(double step, const restitute_contact_motion *m, restitute_error *error)
+int rst_check_contact(const restitute_contact_law *law, double step, const struct rst_batch *b, restitute_error *error)
 {
-    const int status = RST_CHECK(contact_motion, m, error);
-    if (status) return status;
-    const double r = m->radius, fastest = r / step, mobility = largest_mobility / step, *v = m->velocity;
-    const struct {
-        const char *name;
-        double value, low, high;
-    } numbers[] = {{"radius", r, least_radius, largest_radius},
-                   {"overlap", m->overlap, -r, r},
-                   {"velocity[0]", v[0], -fastest, fastest},
-                   {"velocity[1]", v[1], -fastest, fastest},
-                   {"velocity[2]", v[2], -fastest, fastest},
-                   {"spin", m->spin, -1 / step, 1 / step},
-                   {"inverse_mass", m->inverse_mass, 0, mobility},
-                   {"inverse_tangential_mass", m->inverse_tangential_mass, 0, mobility},
-                   {"friction", m->friction, 0, largest_friction}};
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        if (!(numbers[i].value >= numbers[i].low && numbers[i].value <= numbers[i].high))
-            return rst_report(error, RESTITUTE_ERROR_DOMAIN, "motion.%s = %.17g: must be in [%g, %g]", numbers[i].name,
-                              numbers[i].value, numbers[i].low, numbers[i].high);
-    return rst_check_unit(m->normal, "motion.normal", error);
-}
-
-int rst_check_turn(const double n[3], const double *state, restitute_error *error)
-{
-    const double *a = state + at_axis, out = n[0] * a[0] + n[1] * a[1] + n[2] * a[2];
-    if (a[0] * a[0] + a[1] * a[1] + a[2] * a[2] - out * out >= least_in_plane) return RESTITUTE_OK;
+    const double normal[3] = {b->normal[0][0], b->normal[1][0], b->normal[2][0]};
+    double found[3];
+    const struct range *bad = first_bad(step, b, 0, found);
+    if (bad) return rst_check_number(found[0], found[1], found[2], bad->name, error);
+    int status = rst_check_unit(normal, "motion.normal", error);
+    if (!status) status = rst_check_state(law, b->state[0], error);
+    if (status || rst_is_new(b->state[0]) || in_plane(b, 0) >= least_in_plane) return status;
     return rst_report(error, RESTITUTE_ERROR_DOMAIN,
                       "motion.normal = (%g, %g, %g): has turned too far since the last step; use "
                       "restitute_contact_turn",
-                      n[0], n[1], n[2]);
+                      normal[0], normal[1], normal[2]);
 }
 
 int rst_check_state(const restitute_contact_law *law, const double *state, restitute_error *error)
@@ -98,14 +98,22 @@ int rst_check_state(const restitute_contact_law *law, const double *state, resti
 int rst_check_unit(const double *v, const char *name, restitute_error *error)
 {
     if (!v) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", name);
-    if (is_unit(v)) return RESTITUTE_OK;
+    if (is_unit(v[0], v[1], v[2])) return RESTITUTE_OK;
     return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = (%g, %g, %g): must be a unit vector", name, v[0], v[1],
                       v[2]);
 }
 
-int rst_check_radius(double radius, const char *name, restitute_error *error)
+int rst_check_number(double value, double low, double high, const char *name, restitute_error *error)
 {
-    if (radius >= least_radius && radius <= largest_radius) return RESTITUTE_OK;
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g m: must be in [%g, %g]", name, radius, least_radius,
-                      largest_radius);
+    if (value >= low && value <= high) return RESTITUTE_OK;
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be in [%g, %g]", name, value, low, high);
+}
+
+int rst_give_force(double normal, double x, double y, double z, restitute_contact_force *force, restitute_error *error)
+{
+    if (!(normal >= 0 && normal + fabs(x) + fabs(y) + fabs(z) <= DBL_MAX))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "state: is corrupt, the force that it gives is negative or not finite");
+    *force = (restitute_contact_force){normal, {x, y, z}};
+    return RESTITUTE_OK;
 }

@@ -14,10 +14,10 @@ INLINE double lacking(double margin, double behind, double x_in, double y_in, do
 {
     const double change = behind - margin;
     const bool extrapolates = (margin > 0) & (change > 0);
-    const double divisor = or_one(extrapolates, change), y = y_in + margin * (y_in - y_behind) / divisor;
+    const double y = y_in + quotient(margin, change) * (y_in - y_behind);
     const double kept = if_so(extrapolates) * if_so((y_out - y) * (y_out - y_in) > 0) * if_so(y > 0);
     *front = kept * y;
-    return kept * margin * (weight - weight_of(x_in, sqrt(larger(y, 0))));
+    return kept * margin * (weight - rst_weight_of(x_in, sqrt(larger(y, 0))));
 }
 
 /* What the integral lacks where stick turns to slip between two elements. */
@@ -58,7 +58,7 @@ INLINE void add_kink_at_rim(struct work *s)
         const double qx = s->q_last[0][l], qy = s->q_last[1][l], px = s->q_before[0][l], py = s->q_before[1][l];
         const double bx = qx + reach * (qx - px), by = qy + reach * (qy - py), size = sqrt(bx * bx + by * by);
         const bool slips = (s->both_stick[l] > 0) & (reach > 0) & (size > limit) & (s->known[l] == 0);
-        const double length = or_one(slips, size), x = bx / length, y = by / length;
+        const double x = quotient(bx, size), y = quotient(by, size);
         const double margin = s->limit_ratio[l] * s->f_last[l] - (x * qx + y * qy);
         const double behind = s->limit_ratio[l] * s->f_before[l] - (x * px + y * py);
         double front;
@@ -67,9 +67,11 @@ INLINE void add_kink_at_rim(struct work *s)
         const double more = larger(lacks, 0) * if_so(slips), outer = s->outer[l] * if_so(more > 0);
         s->total[0][l] += more * x + outer * (limit * x - s->rim[0][l]);
         s->total[1][l] += more * y + outer * (limit * y - s->rim[1][l]);
-        s->front[l] = more > 0 ? front : ((s->last_sticks[l] > 0) & (s->known[l] == 0)) ? 0 : s->front[l];
-        s->front_along[0][l] = more > 0 ? x : s->front_along[0][l];
-        s->front_along[1][l] = more > 0 ? y : s->front_along[1][l];
+        /* arithmetic: selections between what is in memory are no vectors without AVX2 */
+        const double begins = if_so(more > 0), known = if_so(s->known[l] > 0), last_slips = 1 - s->last_sticks[l];
+        s->front[l] = begins * front + (1 - begins) * larger(known, last_slips) * s->front[l];
+        s->front_along[0][l] += begins * (x - s->front_along[0][l]);
+        s->front_along[1][l] += begins * (y - s->front_along[1][l]);
     }
 }
 

@@ -22,29 +22,35 @@ static const double fastest = 1e80; /* m/s: squares of viscous forces are not to
 
 typedef double lanes[LANES];
 
-/* What a compiler is to know of a law. */
-struct shape {
-    int n, terms, surface, slips, turns, details;
-};
-
-/* What a step is of. */
+/* What a step is of; `at`: what the compiler knows of the law. */
 struct call {
     const struct rst_law *law;
     const struct rst_rates *r;
     struct rst_batch *in;
     double step;
-    struct shape at;
+    struct rst_shape at;
 };
 
-/* Of each Maxwell arm over the step; an element that enters has less time. */
-struct arms {
-    double decay[most_k][most_n], gain[most_k][most_n];
+/* Elongations of the arms and displacements of elements, in the normal direction (0) and the
+ * tangential ones (1, 2). */
+INLINE double *w_of(const struct call c, int l, int d)
+{
+    return c.in->state[l] + at_arrays + d * c.at.terms * c.at.n;
+}
+INLINE double *u_of(const struct call c, int l, int d)
+{
+    return c.in->state[l] + rst_at_u(c.at) + (d > 0 ? d - 1 + c.at.surface : 0) * c.at.n;
+}
+
+/* Of a Maxwell arm over the step; an element that enters has less time. */
+struct arm {
+    double decay[most_n], gain[most_n];
 };
 
 /* Elements of a contact. Force densities in units of law.normal and law.tangential. */
 struct rows {
-    const struct arms *arms;
-    struct arms own;
+    const struct arm *arms;
+    struct arm own[most_k];
     double touch[most_n];                       /* part of the step in contact, 0 outside */
     double f[most_n];                           /* normal */
     double pressed[most_n];                     /* beyond the free surface, negative outside */
@@ -56,11 +62,11 @@ struct rows {
 };
 
 struct work {
-    struct arms even;
+    struct arm even[most_k];
     struct rows row[LANES];
     int last[LANES]; /* outermost element in contact, counted from 1; 0: none */
     lanes scale;     /* width^2/radius */
-    lanes width, before, approach, sum, force;
+    lanes approach, sum, force;
     /* the rim: places of the last element, f and w there; edge: contact radius in grid widths;
      * weights of the last, cut cell: of the last element, beside its own, and of the rim; f at the
      * rim, and w there over w of the last element */
@@ -90,18 +96,11 @@ INLINE double if_so(bool is)
     return is ? 1.0 : 0.0;
 }
 
-/* A divisor that is 1 where it does not matter. Of a selection of doubles compilers may make one of
- * quotients, and so divide by 0 in vain: hosts trap that. */
-INLINE double or_one(bool matters, double value)
+/* a/b where b > 0 and a/b < 1e16, elsewhere anything finite. A selected divisor would not do: of it
+ * compilers make a selection between quotients, and so divide by 0 in vain: hosts trap that. */
+INLINE double quotient(double a, double b)
 {
-    const double one = 1;
-    const uint64_t mask = -(uint64_t)matters;
-    uint64_t bits, bits_of_one;
-    memcpy(&bits, &value, sizeof bits);
-    memcpy(&bits_of_one, &one, sizeof one);
-    bits = (bits & mask) | (bits_of_one & ~mask);
-    memcpy(&value, &bits, sizeof value);
-    return value;
+    return a / larger(b, 1e-16 * fabs(a) + DBL_MIN);
 }
 
 /* The sum over elements, in an order that suits every width of vectors. */
@@ -113,20 +112,20 @@ INLINE double sum_of(const double *p, int n)
     return sum;
 }
 
-/* exp(x) for -700 <= x <= 0 within 2e-16 relative, in lanes: x = k ln 2 + r, and Taylor's series of
- * r. */
+/* exp(x) for -700 <= x <= 0 within 2e-16 relative: x = k ln 2 + r, and Taylor's series of r. It is
+ * written out since compilers make no vectors of a loop in lanes. */
 INLINE double exp_of(double x)
 {
     const double shift = 0x1.8p52 + 1023, t = x * 1.4426950408889634 + shift, k = t - shift;
     const double r = (x - k * 0x1.62e42fee00000p-1) - k * 0x1.a39ef35793c76p-33;
-    double p = 1, scale;
-    for (int i = 13; i > 0; i--)
-        p = p * r * (1.0 / i) + 1;
+    const double end = 1 / 3628800. + r * (1 / 39916800. + r * (1 / 479001600. + r * (1 / 6227020800.)));
+    const double middle = 1 / 720. + r * (1 / 5040. + r * (1 / 40320. + r * (1 / 362880. + r * end)));
+    double scale;
     uint64_t bits;
     memcpy(&bits, &t, sizeof bits);
     bits <<= 52;
     memcpy(&scale, &bits, sizeof scale);
-    return p * scale;
+    return scale * (1 + r * (1 + r * (1 / 2. + r * (1 / 6. + r * (1 / 24. + r * (1 / 120. + r * middle))))));
 }
 
 /* Change of the velocity until the end of the step by a unit force that holds it back, with a

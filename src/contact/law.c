@@ -2,9 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "contact/law.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/report.h"
 #include "base/sized.h"
@@ -20,10 +18,7 @@ static int check_options(const restitute_contact_law_options *o, restitute_error
                           o->deformable);
     if (o->elements < 8 || o->elements > rst_most_nodes || o->elements % 8)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.elements = %d: must be 8, 16, 24 or 32", o->elements);
-    if (o->terms < 1 || o->terms > rst_most_terms)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.terms = %d: must be in [1, %d]", o->terms,
-                          rst_most_terms);
-    return RESTITUTE_OK;
+    return rst_check_number(o->terms, 1, rst_most_terms, "options.terms", error);
 }
 
 /* Times, masses, radii and speeds: no product of a few of them overflows. */
@@ -65,7 +60,7 @@ static int take_series(const restitute_material *material, const restitute_conta
     struct rst_law *k = &law->kernel;
     const size_t n = restitute_material_terms(material);
     if (n <= (size_t)options->terms) {
-        k->n_terms = (int)n;
+        k->at.terms = (int)n;
         restitute_material_series(material, &k->g_inf, &k->eta, k->tau, k->g, NULL);
         return RESTITUTE_OK;
     }
@@ -78,15 +73,6 @@ static int take_series(const restitute_material *material, const restitute_conta
     rst_reduce_series(&series, options->terms, options->shortest, options->longest, k, &law->error_bound);
     free(tau);
     return judge_reduction(options, n, law->error_bound, error);
-}
-
-/* Both bodies deform: in series, each with its own modulus. */
-static void halve(struct rst_law *k)
-{
-    k->g_inf /= 2;
-    k->eta /= 2;
-    for (int i = 0; i < k->n_terms; i++)
-        k->g[i] /= 2;
 }
 
 /* FNV-1a. The lowest 24 bits mark states: never all zero, which is a new contact. */
@@ -116,18 +102,21 @@ int restitute_contact_law_create(const restitute_material *material, const resti
     }
     struct rst_law *k = &made->kernel;
     const double nu = restitute_material_poisson_ratio(material);
-    k->n = own.elements;
-    k->slips = !own.frictionless;
-    k->turns = k->slips && own.slip_cycles;
-    k->details = own.details != 0;
-    k->surface = k->eta > 0 || !(k->g_inf > 0);
+    k->at.n = own.elements;
+    k->at.surface = k->eta > 0 || !(k->g_inf > 0);
+    k->at.slips = !own.frictionless;
+    k->at.turns = k->at.slips && own.slip_cycles;
+    k->at.details = own.details != 0;
     k->normal = 4 / (1 - nu);
     k->tangential = 8 / (2 - nu);
     made->halved = own.deformable == RESTITUTE_BOTH_BODIES_DEFORM;
-    if (made->halved) halve(k);
+    const double share = made->halved ? 0.5 : 1; /* in series, each with its own modulus */
+    k->g_inf *= share;
+    k->eta *= share;
+    for (int i = 0; i < k->at.terms; i++)
+        k->g[i] *= share;
     k->compliance = k->g_inf > 0 ? 1 / k->g_inf : 0;
     rst_law_grid(k);
-    made->size = (size_t)(rst_at_details(k) + (k->details ? rst_details : 0));
     made->hash = hash_of(k);
     rst_choose_kernels(&made->step_one, &made->step_lanes);
     *law = made;
@@ -141,7 +130,7 @@ void restitute_contact_law_destroy(restitute_contact_law *law)
 
 size_t restitute_contact_law_state_size(const restitute_contact_law *law)
 {
-    return law ? law->size : 0;
+    return law ? (size_t)(rst_at_details(law->kernel.at) + rst_details * law->kernel.at.details) : 0;
 }
 
 uint64_t restitute_contact_law_hash(const restitute_contact_law *law)
@@ -158,19 +147,13 @@ int restitute_contact_law_series(const restitute_contact_law *law, double *equil
     const double whole = law->halved ? 2 : 1;
     if (equilibrium_modulus) *equilibrium_modulus = whole * k->g_inf;
     if (parallel_viscosity) *parallel_viscosity = whole * k->eta;
-    if (n_terms) *n_terms = (size_t)k->n_terms;
-    for (int i = 0; i < k->n_terms; i++) {
+    if (n_terms) *n_terms = (size_t)k->at.terms;
+    for (int i = 0; i < k->at.terms; i++) {
         if (relaxation_time) relaxation_time[i] = k->tau[i];
         if (modulus) modulus[i] = whole * k->g[i];
     }
     if (error_bound) *error_bound = law->error_bound;
     return rst_done(error);
-}
-
-static int check_positive(double value, const char *name, restitute_error *error)
-{
-    if (value >= least && value <= largest) return RESTITUTE_OK;
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be in [%g, %g]", name, value, least, largest);
 }
 
 int restitute_contact_rates_set(const restitute_contact_law *law, double step, restitute_contact_rates *rates,
@@ -179,7 +162,7 @@ int restitute_contact_rates_set(const restitute_contact_law *law, double step, r
     restitute_contact_rates made;
     if (!law || !rates) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", law ? "rates" : "law");
     int status = RST_CHECK(contact_rates, rates, error);
-    if (!status) status = check_positive(step, "step (s)", error);
+    if (!status) status = rst_check_number(step, least, largest, "step (s)", error);
     if (status) return status;
     restitute_contact_rates_init(&made);
     rst_law_rates(&law->kernel, step, (struct rst_rates *)made.values);
@@ -193,9 +176,9 @@ int restitute_contact_time_scale(const restitute_contact_law *law, double mass, 
                                  double *scale, restitute_error *error)
 {
     if (!law || !scale) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", law ? "scale" : "law");
-    int status = check_positive(mass, "mass (kg)", error);
-    if (!status) status = check_positive(radius, "radius (m)", error);
-    if (!status) status = check_positive(speed, "speed (m/s)", error);
+    int status = rst_check_number(mass, least, largest, "mass (kg)", error);
+    if (!status) status = rst_check_number(radius, least, largest, "radius (m)", error);
+    if (!status) status = rst_check_number(speed, least, largest, "speed (m/s)", error);
     if (status) return status;
     *scale = rst_law_largest_overlap(&law->kernel, mass, radius, speed) / speed;
     return rst_done(error);

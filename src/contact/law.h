@@ -4,12 +4,12 @@
 #define RST_CONTACT_LAW_H
 
 #include <restitute/contact.h>
+#include <string.h>
 
 #include "contact/kernel.h"
 
 struct restitute_contact_law {
     struct rst_law kernel;
-    size_t size; /* doubles of a state */
     uint64_t hash;
     int halved; /* both bodies deform */
     double error_bound;
@@ -24,8 +24,8 @@ struct rst_series {
 };
 
 /* Fit at most `terms` terms to a longer series, for times from `shortest` to `longest`. Sets g_inf,
- * eta, n_terms, tau and g of the law and the bound on the relative error of G(t): infinite if G is
- * 0 at `longest`; then no law is set. */
+ * eta, the number of terms, tau and g of the law and the bound on the relative error of G(t):
+ * infinite if G is 0 at `longest`; then no law is set. */
 void rst_reduce_series(const struct rst_series *series, int terms, double shortest, double longest, struct rst_law *law,
                        double *error_bound);
 
@@ -40,9 +40,16 @@ double rst_law_largest_overlap(const struct rst_law *law, double mass, double ra
 /* Over the time scale largest overlap/speed: how long an elastic impact lasts (Hertz). */
 #define RST_ELASTIC_CONTACT_TIME 2.9432751843
 
-/* A new contact: its grid, for an impact at this speed, if it approaches, and for the present
- * overlap. 0: it would last less than ten steps; nothing is done then. */
-int rst_contact_begin(const struct rst_law *law, double step, const restitute_contact_motion *motion, double *state);
+/* How fast a contact of a batch closes. */
+static inline double rst_approach(const struct rst_batch *b, int l)
+{
+    return b->normal[0][l] * b->velocity[0][l] + b->normal[1][l] * b->velocity[1][l] +
+           b->normal[2][l] * b->velocity[2][l];
+}
+
+/* A new contact, the first of a batch: its grid, for an impact at this speed, if it approaches, and
+ * for the present overlap. 0: it would last less than ten steps; nothing is done then. */
+int rst_contact_begin(const struct rst_law *law, double step, const struct rst_batch *batch, double *state);
 
 /* A contact of radius^2 `area` has outgrown its grid: a wider one, and what there is on it. */
 void rst_contact_stretch(const struct rst_law *law, double area, double *state);
@@ -55,20 +62,26 @@ static inline int rst_is_wide(double area, double width)
 }
 
 /* ... and is at rest, and relaxed outside the contact: its grid may be narrowed. */
-int rst_contact_may_shrink(const struct rst_law *law, double change, double overlap, double radius,
-                           const double *state);
+int rst_contact_may_shrink(const struct rst_law *law, double step, const struct rst_batch *batch, int lane);
 void rst_contact_shrink(const struct rst_law *law, double area, double *state);
 
 /* The kernel can advance the first n contacts of a batch. */
 int rst_all_good(const restitute_contact_law *law, double step, const struct rst_batch *batch, int n);
 
-/* Statuses, in words: a motion is in its ranges; the normal has not turned too far; a state is one
- * of the law. */
-int rst_check_motion(double step, const restitute_contact_motion *motion, restitute_error *error);
-int rst_check_turn(const double normal[3], const double *state, restitute_error *error);
+/* Statuses, in words: the contact of a batch of one can be advanced, or begin, or change its grid;
+ * a state is one of the law; a vector is a unit vector; a number is within bounds. */
+int rst_check_contact(const restitute_contact_law *law, double step, const struct rst_batch *batch,
+                      restitute_error *error);
 int rst_check_state(const restitute_contact_law *law, const double *state, restitute_error *error);
 int rst_check_unit(const double *v, const char *name, restitute_error *error);
-int rst_check_radius(double radius, const char *name, restitute_error *error);
+int rst_check_number(double value, double low, double high, const char *name, restitute_error *error);
+
+/* Gives a force if it is finite: within their ranges all motions give a finite one. */
+int rst_give_force(double normal, double x, double y, double z, restitute_contact_force *force, restitute_error *error);
+
+/* Of an effective radius, m: far beyond any real one. */
+#define RST_LEAST_RADIUS 1e-15
+#define RST_LARGEST_RADIUS 1e15
 
 /* The first number of a state is the grid width. Its lowest bits are replaced by bits of the hash
  * of the law, since a width does not need all its digits. */
@@ -76,20 +89,15 @@ enum { rst_mark_bits = (1 << 24) - 1 };
 
 static inline uint64_t rst_bits_of(double value)
 {
-    union {
-        double value;
-        uint64_t bits;
-    } const both = {value};
-    return both.bits;
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
 }
 
 static inline void rst_mark(const restitute_contact_law *law, double *width)
 {
-    const union {
-        uint64_t bits;
-        double value;
-    } both = {(rst_bits_of(*width) & ~(uint64_t)rst_mark_bits) | (law->hash & rst_mark_bits)};
-    *width = both.value;
+    const uint64_t bits = (rst_bits_of(*width) & ~(uint64_t)rst_mark_bits) | (law->hash & rst_mark_bits);
+    memcpy(width, &bits, sizeof bits);
 }
 
 static inline int rst_is_new(const double *state)
@@ -105,18 +113,13 @@ static inline int rst_is_own(const restitute_contact_law *law, const double *sta
 /* A contact and its motion as a lane of a batch. */
 static inline void rst_put(const restitute_contact_motion *m, double *state, int lane, struct rst_batch *batch)
 {
-    for (int i = 0; i < 3; i++) {
-        batch->normal[i][lane] = m->normal[i];
-        batch->velocity[i][lane] = m->velocity[i];
-        batch->axis[i][lane] = state[at_axis + i];
-    }
-    batch->overlap[lane] = m->overlap;
-    batch->turn[lane] = m->spin;
-    batch->inverse_mass[0][lane] = m->inverse_mass;
-    batch->inverse_mass[1][lane] = m->inverse_tangential_mass;
-    batch->radius[lane] = m->radius;
-    batch->friction[lane] = m->friction;
-    batch->width[lane] = state[at_width];
+    enum { of_motion = offsetof(struct rst_batch, width) / sizeof batch->width, of_state = at_overlap + 1 };
+    const double *of = (const double *)((const char *)m + offsetof(restitute_contact_motion, overlap));
+    double *row = (double *)batch + lane;
+    for (int i = 0; i < of_motion; i++, row += rst_lanes)
+        *row = of[i];
+    for (int i = 0; i < of_state; i++, row += rst_lanes)
+        *row = state[i];
     batch->state[lane] = state;
 }
 

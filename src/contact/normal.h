@@ -6,21 +6,18 @@
 #include "contact/lanes.h"
 
 /* Elements that were reached within the step: their arms have had only a part of it. */
-RARE void enter(const struct rst_law *restrict law, double step, const struct arms *even, const double *gap,
+RARE void enter(const struct rst_law *restrict law, double step, const struct arm *even, const double *gap,
                 const double *pressed, struct rows *row)
 {
-    for (int k = 0; k < law->n_terms; k++) {
-        memcpy(row->own.decay[k], even->decay[k], (size_t)law->n * sizeof(double));
-        memcpy(row->own.gain[k], even->gain[k], (size_t)law->n * sizeof(double));
-    }
-    row->arms = &row->own;
-    for (int i = 0; i < law->n; i++) {
+    memcpy(row->own, even, (size_t)law->at.terms * sizeof *even);
+    row->arms = row->own;
+    for (int i = 0; i < law->at.n; i++) {
         if (!(gap[i] < 0 && pressed[i] > 0)) continue;
         row->touch[i] = larger(1e-9, pressed[i] / (pressed[i] - gap[i]));
-        for (int k = 0; k < law->n_terms; k++) {
+        for (int k = 0; k < law->at.terms; k++) {
             const struct rst_arm arm = rst_arm_of(row->touch[i] * step, law->tau[k]);
-            row->own.decay[k][i] = arm.decay;
-            row->own.gain[k][i] = arm.gain;
+            row->own[k].decay[i] = arm.decay;
+            row->own[k].gain[i] = arm.gain;
         }
     }
 }
@@ -41,9 +38,9 @@ INLINE int outermost(double bits)
 INLINE void follow_profile(const struct call c, int l, struct work *s)
 {
     const int n = c.at.n;
-    const double scale = s->scale[l], before = s->before[l], overlap = c.in->overlap[l];
+    const double scale = s->scale[l], before = c.in->before[l], overlap = c.in->overlap[l];
     const double dashpot = c.at.surface ? c.law->eta * s->approach[l] : 0;
-    double *const w = c.in->state[l] + at_arrays, *const surface = c.in->state[l] + rst_at_surface(c.law);
+    double *const w = w_of(c, l, 0), *const surface = u_of(c, l, 0);
     struct rows *const row = &s->row[l];
     double u[most_n], held[most_n], pull[most_n], moved[most_n], gap[most_n], f[most_n], part[most_n];
     double *const pressed = row->pressed;
@@ -67,14 +64,14 @@ INLINE void follow_profile(const struct call c, int l, struct work *s)
         row->touch[i] = if_so(pressed[i] > 0);
         part[i] = row->touch[i] * (c.law->bit[i] + entry * if_so(gap[i] < 0));
     }
-    row->arms = &s->even;
+    row->arms = s->even;
     const double bits = sum_of(part, n);
-    if (bits >= entry) enter(c.law, c.step, &s->even, gap, pressed, row);
+    if (bits >= entry) enter(c.law, c.step, s->even, gap, pressed, row);
     EACH_ELEMENT f[i] = c.law->g_inf * (u[i] + moved[i]) + dashpot;
     if (c.at.surface) EACH_ELEMENT surface[i] = u[i] + moved[i];
     if (c.at.details) EACH_ELEMENT row->spent[i] = c.law->eta / c.step * moved[i] * moved[i];
     for (int k = 0; k < c.at.terms; k++) {
-        const double g = c.law->g[k], *const decay = row->arms->decay[k], *const gain = row->arms->gain[k];
+        const double g = c.law->g[k], *const decay = row->arms[k].decay, *const gain = row->arms[k].gain;
         const double *const spent = c.r->spent[k];
         EACH_ELEMENT
         {
@@ -87,7 +84,7 @@ INLINE void follow_profile(const struct call c, int l, struct work *s)
     }
     if (c.at.details) {
         EACH_ELEMENT part[i] = c.law->weight[i] * row->spent[i];
-        s->spent[l] = c.law->normal * s->width[l] * sum_of(part, n);
+        s->spent[l] = c.law->normal * c.in->width[l] * sum_of(part, n);
     }
     EACH_ELEMENT
     {
@@ -103,7 +100,7 @@ INLINE void follow_profile(const struct call c, int l, struct work *s)
 INLINE void look_at_last(const struct call c, int l, struct work *s)
 {
     const int n = c.at.n, last = s->last[l], j = last > 0 ? last - 1 : 0, before = j > 0 ? j - 1 : 0;
-    const double *const state = c.in->state[l], *const w = state + at_arrays;
+    const double *const w = w_of(c, l, 0);
     s->touches[l] = if_so(last > 0);
     s->x[l] = c.law->x[j];
     s->y[l] = c.law->y[j];
@@ -118,16 +115,15 @@ INLINE void look_at_last(const struct call c, int l, struct work *s)
         s->w_last[k][l] = w[k * n + j];
         virgin &= last == n || w[k * n + last] == 0;
     }
-    if (c.at.surface) virgin &= last == n || state[rst_at_surface(c.law) + last] == 0;
+    if (c.at.surface) virgin &= last == n || u_of(c, l, 0)[last] == 0;
     s->virgin[l] = if_so(virgin);
     s->meets[l] = beyond;
-    if (!c.at.surface || last == n) return;
+    if (!c.at.surface || virgin) return;
     const double *const pressed = s->row[l].pressed,
                         out = last + 1 < n ? pressed[last + 1] : c.in->overlap[l] - s->scale[l];
     const double fall = pressed[last] - out;
-    const bool apart = (pressed[last] < 0) & (fall > 0);
-    const double meets = c.law->y[last] + pressed[last] * (c.law->y[last + 1] - c.law->y[last]) / or_one(apart, fall);
-    if (apart) s->meets[l] = larger(s->y[l], meets);
+    const double meets = c.law->y[last] + quotient(pressed[last], fall) * (c.law->y[last + 1] - c.law->y[last]);
+    if (pressed[last] < 0 && fall > 0) s->meets[l] = larger(s->y[l], meets);
 }
 
 /* Where the contact ends beyond its last element, f there, and the whole force. A contact that
@@ -166,7 +162,7 @@ INLINE void close_rim(const struct call c, const double *approach, struct work *
         const bool grows = (s->approach[l] > 0) & (s->virgin[l] > 0);
         const double fall = slope > 0 ? slope : soft;
         const bool ends = (f < fall * (free - y)) & !grows;
-        const double divisor = or_one(ends, fall), reached = y + f / divisor, place = ends ? reached : free;
+        const double place = ends ? y + quotient(f, fall) : free;
         const double risen = larger(0, rise[l]), held = larger(0, f - slope * (free - y)) * several * if_so(!ends);
         const double here = grows ? risen : held,
                      there = larger(0, f - slope * (next - y)) * several * if_so(place > next);
@@ -177,7 +173,7 @@ INLINE void close_rim(const struct call c, const double *approach, struct work *
         s->edge[l] = edge;
         s->inner[l] = touches * (third * (2 * edge + x) - s->outwards[l]);
         s->outer[l] = touches * third * (2 * x + edge);
-        s->force[l] = c.law->normal * s->width[l] * (s->sum[l] + s->inner[l] * f + s->outer[l] * s->at_rim[l]);
+        s->force[l] = c.law->normal * c.in->width[l] * (s->sum[l] + s->inner[l] * f + s->outer[l] * s->at_rim[l]);
     }
 }
 
@@ -186,7 +182,7 @@ INLINE void close_rim(const struct call c, const double *approach, struct work *
 INLINE void feel_end_velocity(const struct call c, double change, int l, struct work *s)
 {
     const int n = c.at.n;
-    double *const w = c.in->state[l] + at_arrays, *const surface = c.in->state[l] + rst_at_surface(c.law);
+    double *const w = w_of(c, l, 0), *const surface = u_of(c, l, 0);
     struct rows *const row = &s->row[l];
     double back[most_n], moved[most_n], part[most_n], bits[most_n];
     EACH_ELEMENT
@@ -220,7 +216,7 @@ INLINE void press(const struct call c, struct work *s)
     EACH_LANE
     {
         /* The equilibrium spring carries what does not accelerate, such as a weight at rest. */
-        const double rim = s->width[l] * s->edge[l];
+        const double rim = c.in->width[l] * s->edge[l];
         const double carried =
             c.law->normal * c.law->g_inf * rim * (c.in->overlap[l] - rim * rim / (3 * c.in->radius[l]));
         const double response =

@@ -1,9 +1,6 @@
 /* Springs and dashpots over one time step, exact for a velocity that is linear in it
  * (docs/contact.md), and how deep and how long a contact will be.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-
-#include "contact/kernel.h"
 #include "contact/law.h"
 
 struct rst_arm rst_arm_of(double step, double tau)
@@ -29,7 +26,7 @@ void rst_law_rates(const struct rst_law *law, double step, struct rst_rates *rat
 {
     double stiffness = law->g_inf + law->eta / step;
     *rates = (struct rst_rates){.viscosity = law->eta};
-    for (int k = 0; k < law->n_terms; k++) {
+    for (int k = 0; k < law->at.terms; k++) {
         struct rst_arm arm = rst_arm_of(step, law->tau[k]);
         if (law->tau[k] > step) arm.bend = 0; /* slow arms are springs: their forces do not follow the velocity */
         rates->decay[k] = arm.decay;
@@ -59,7 +56,7 @@ double rst_law_largest_overlap(const struct rst_law *law, double mass, double ra
     for (int i = 0; i < iterations; i++) {
         const double time = share_of_time * d / speed;
         double g = law->g_inf + law->eta * (share_of_time / share_of_dashpot) / time;
-        for (int k = 0; k < law->n_terms; k++)
+        for (int k = 0; k < law->at.terms; k++)
             g += law->g[k] * mean_of_term(time / law->tau[k]);
         d = sqrt(d * (energy / pow(g, 0.4))); /* not (./g)^0.4, which may underflow under a dashpot */
     }

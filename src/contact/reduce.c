@@ -2,8 +2,6 @@
  * Least squares of the relative error of G(t) and of its integral over the first step. The log(tau)
  * are equally spaced, and moduli are >= 0, so that the result is a solid.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-
 #include "contact/law.h"
 
 /* Samples in time; for the bound ten times as many, since G falls between samples. */
@@ -21,21 +19,18 @@ static const double settled = 1e-9;
 /* Below this share of G(0) nothing is fitted. So squares of relative errors do not overflow. */
 static const double nothing = 1e-60;
 
-static double modulus(const struct rst_series *s, double t)
+/* A term of G(t); or of its integral up to t, which determines the force after the first step. */
+static double term_of(int integral, double tau, double t)
 {
-    double g = s->g_inf;
-    for (size_t k = 0; k < s->n_terms; k++)
-        g += s->g[k] * exp(-t / s->tau[k]);
-    return g;
+    return integral ? -tau * expm1(-t / tau) : exp(-t / tau);
 }
 
-/* int_0^t G, which determines the force after the first step. */
-static double impulse(const struct rst_series *s, double t)
+static double modulus(int integral, const struct rst_series *s, double t)
 {
-    double sum = s->g_inf * t;
+    double g = s->g_inf * (integral ? t : 1);
     for (size_t k = 0; k < s->n_terms; k++)
-        sum -= s->g[k] * s->tau[k] * expm1(-t / s->tau[k]);
-    return sum;
+        g += s->g[k] * term_of(integral, s->tau[k], t);
+    return g;
 }
 
 static double between(double first, double last, int i, int n)
@@ -43,19 +38,19 @@ static double between(double first, double last, int i, int n)
     return n > 1 ? first * pow(last / first, (double)i / (n - 1)) : sqrt(first * last);
 }
 
-/* Normal equations of G(t) at the samples and, with the same weight, of the impulse; the last
+/* Normal equations of G(t) at the samples and, with the same weight, of the integral; the last
  * unknown is G_inf. */
 static void set_up(const struct rst_series *s, int n, const double *tau, double shortest, double longest,
                    double matrix[unknowns][unknowns], double *right)
 {
     for (int i = 0; i <= samples; i++) {
-        const int of_modulus = i < samples;
-        const double t = of_modulus ? between(shortest, longest, i, samples) : shortest;
-        const double weight = of_modulus ? 1 : samples, whole = of_modulus ? modulus(s, t) : impulse(s, t);
+        const int integral = i == samples;
+        const double t = integral ? shortest : between(shortest, longest, i, samples);
+        const double weight = integral ? samples : 1, whole = modulus(integral, s, t);
         double row[unknowns];
         for (int k = 0; k < n; k++)
-            row[k] = (of_modulus ? exp(-t / tau[k]) : -tau[k] * expm1(-t / tau[k])) / whole;
-        row[n] = s->g_inf > 0 ? (of_modulus ? 1 : t) / whole : 0; /* a fluid must stay a fluid */
+            row[k] = term_of(integral, tau[k], t) / whole;
+        row[n] = s->g_inf > 0 ? (integral ? t : 1) / whole : 0; /* a fluid must stay a fluid */
         for (int k = 0; k <= n; k++) {
             right[k] += weight * row[k];
             for (int j = 0; j <= n; j++)
@@ -86,10 +81,10 @@ static void solve_positive(int n, const double matrix[unknowns][unknowns], const
  * values there. */
 static double bound_error(const struct rst_series *whole, const struct rst_series *few, double shortest, double longest)
 {
-    const double first = impulse(whole, shortest);
-    double bound = fabs(impulse(few, shortest) - first) / first, before[2] = {0};
+    const double first = modulus(1, whole, shortest);
+    double bound = fabs(modulus(1, few, shortest) - first) / first, before[2] = {0};
     for (int i = 0; i < checks; i++) {
-        const double t = between(shortest, longest, i, checks), now[2] = {modulus(whole, t), modulus(few, t)};
+        const double t = between(shortest, longest, i, checks), now[2] = {modulus(0, whole, t), modulus(0, few, t)};
         if (i > 0) bound = fmax(bound, fmax(before[0] - now[1], before[1] - now[0]) / now[0]);
         before[0] = now[0];
         before[1] = now[1];
@@ -102,7 +97,7 @@ void rst_reduce_series(const struct rst_series *series, int terms, double shorte
 {
     law->eta = series->eta;
     *error_bound = INFINITY;
-    if (!(modulus(series, longest) > nothing * modulus(series, 0))) return;
+    if (!(modulus(0, series, longest) > nothing * modulus(0, series, 0))) return;
     for (int trial = 0; trial < reach_count * reach_count; trial++) {
         const double fastest = shortest * reaches[trial / reach_count],
                      slowest = longest / reaches[trial % reach_count];
@@ -116,13 +111,13 @@ void rst_reduce_series(const struct rst_series *series, int terms, double shorte
         if (!(bound < *error_bound)) continue;
         *error_bound = bound;
         law->g_inf = x[terms];
-        law->n_terms = 0;
+        law->at.terms = 0;
         for (int k = 0; k < terms; k++)
             if (x[k] > 0) { /* terms without modulus would only cost memory and time */
-                law->tau[law->n_terms] = tau[k];
-                law->g[law->n_terms++] = x[k];
+                law->tau[law->at.terms] = tau[k];
+                law->g[law->at.terms++] = x[k];
             }
     }
-    for (int k = law->n_terms; k < rst_most_terms; k++)
+    for (int k = law->at.terms; k < rst_most_terms; k++)
         law->tau[k] = law->g[k] = 0;
 }

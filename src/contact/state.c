@@ -1,8 +1,5 @@
 /* What a state tells, and the turn of a state with a normal that jumps.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <float.h>
-#include <math.h>
-
 #include "base/report.h"
 #include "base/sized.h"
 #include "contact/law.h"
@@ -32,18 +29,12 @@ int restitute_contact_peek(const restitute_contact_law *law, const double normal
     int status = check(law, state, force, "force", error);
     if (!status) status = rst_check_unit(normal, "normal", error);
     if (status) return status;
-    const double *axis = state + at_axis;
-    double other[3], size = fabs(state[at_force]);
-    restitute_contact_force found = {.normal = state[at_force]};
+    const double *axis = state + at_axis, x = state[at_force + 1], y = state[at_force + 2];
+    double other[3];
     cross(normal, axis, other);
-    for (int i = 0; i < 3; i++) {
-        found.tangential[i] = -(state[at_force + 1] * axis[i] + state[at_force + 2] * other[i]);
-        size += fabs(found.tangential[i]);
-    }
-    if (!(size <= DBL_MAX))
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "state: is corrupt, the force that it gives is not finite");
-    *force = found;
-    return rst_done(error);
+    status = rst_give_force(state[at_force], -(x * axis[0] + y * other[0]), -(x * axis[1] + y * other[1]),
+                            -(x * axis[2] + y * other[2]), force, error);
+    return status ? status : rst_done(error);
 }
 
 /* A tangential vector after the smallest rotation that turns one normal into another. */
@@ -69,8 +60,8 @@ int restitute_contact_turn(const restitute_contact_law *law, const double from[3
 static double squared(const struct rst_law *law, double edge, const double *p)
 {
     double integral = 0;
-    for (int j = 0; j < law->n; j++) {
-        const double last = j + 1 < law->n ? p[j + 1] : 0, x = law->x[j];
+    for (int j = 0; j < law->at.n; j++) {
+        const double last = j + 1 < law->at.n ? p[j + 1] : 0, x = law->x[j];
         const double to = edge > x && last == 0 ? fmin(edge, law->x[j + 1]) : law->x[j + 1];
         const double middle = p[j] + (last - p[j]) * (3 * x + to) / (4 * (x + to));
         integral += (to - x) * (p[j] * p[j] + 4 * middle * middle + last * last) / 12;
@@ -78,27 +69,26 @@ static double squared(const struct rst_law *law, double edge, const double *p)
     return integral;
 }
 
-/* int (1/2) (G_inf u^2 + sum g w^2) dx of all three directions. */
+/* int (1/2) (G_inf u^2 + sum g w^2) dx of all directions. */
 static double stored_energy(const struct rst_law *law, double radius, const double *state)
 {
-    const int n = law->n, arms = n * law->n_terms;
+    const int n = law->at.n, directions = 1 + 2 * law->at.slips;
     const double width = state[at_width], overlap = state[at_overlap], *w = state + at_arrays;
     if (!(width > 0)) return 0;
-    const double edge = sqrt(fmax(0, overlap) * radius) / width;
-    double u[rst_most_nodes], energy;
+    const double edge = sqrt(fmax(0, overlap) * radius) / width, *u = state + rst_at_u(law->at);
+    double free[rst_most_nodes], energy = 0;
     for (int j = 0; j < n; j++) {
         double held = 0;
-        for (int k = 0; k < law->n_terms; k++)
+        for (int k = 0; k < law->at.terms; k++)
             held += law->g[k] * w[k * n + j];
-        u[j] = fmax(overlap - law->y[j] * width * width / radius, -held * law->compliance);
+        free[j] = fmax(overlap - law->y[j] * width * width / radius, -held * law->compliance);
     }
-    energy = law->normal * law->g_inf * squared(law, edge, law->surface ? state + rst_at_surface(law) : u);
-    for (int k = 0; k < law->n_terms; k++)
-        energy += law->normal * law->g[k] * squared(law, edge, w + k * n);
-    for (int d = 0; d < 2 * law->slips; d++) {
-        energy += law->tangential * law->g_inf * squared(law, edge, state + rst_at_u(law) + d * n);
-        for (int k = 0; k < law->n_terms; k++)
-            energy += law->tangential * law->g[k] * squared(law, edge, state + rst_at_w(law) + d * arms + k * n);
+    for (int d = 0; d < directions; d++) {
+        double sum = law->g_inf * squared(law, edge, d == 0 && !law->at.surface ? free : u);
+        if (d > 0 || law->at.surface) u += n;
+        for (int k = 0; k < law->at.terms; k++, w += n)
+            sum += law->g[k] * squared(law, edge, w);
+        energy += sum * (d > 0 ? law->tangential : law->normal);
     }
     return energy * width;
 }
@@ -108,10 +98,10 @@ int restitute_contact_details_get(const restitute_contact_law *law, double radiu
 {
     int status = check(law, state, details, "details", error);
     if (!status) status = RST_CHECK(contact_details, details, error);
-    if (!status) status = rst_check_radius(radius, "radius", error);
+    if (!status) status = rst_check_number(radius, RST_LEAST_RADIUS, RST_LARGEST_RADIUS, "radius (m)", error);
     if (status) return status;
-    if (!law->kernel.details) return rst_report(error, RESTITUTE_ERROR_DOMAIN, "law: was made without details");
-    const double *kept = state + rst_at_details(&law->kernel);
+    if (!law->kernel.at.details) return rst_report(error, RESTITUTE_ERROR_DOMAIN, "law: was made without details");
+    const double *kept = state + rst_at_details(law->kernel.at);
     const restitute_contact_details found = {.struct_size = sizeof found,
                                              .contact_radius = kept[5],
                                              .stick_radius = kept[6],

@@ -12,9 +12,7 @@ INLINE void stick(const struct call c, double per_step, int l, struct work *s)
     struct rows *const row = &s->row[l];
     if (c.at.details) EACH_ELEMENT row->at_rest[i] = row->by_move[0][i] = row->by_move[1][i] = 0;
     for (int d = 0; d < 2; d++) {
-        double *const u = c.in->state[l] + rst_at_u(c.law) + d * n, *const w = c.in->state[l] + rst_at_w(c.law) +
-                                                                               d * c.at.terms * n;
-        double *const trial = row->trial[d];
+        double *const u = u_of(c, l, 1 + d), *const w = w_of(c, l, 1 + d), *const trial = row->trial[d];
         const double move = s->move[d][l], dashpot = c.law->eta * per_step * move;
         if (c.at.details) EACH_ELEMENT row->held[d][i] = c.law->g_inf * u[i];
         EACH_ELEMENT
@@ -23,7 +21,7 @@ INLINE void stick(const struct call c, double per_step, int l, struct work *s)
             trial[i] = c.law->g_inf * u[i] + if_so(row->touch[i] > 0) * dashpot;
         }
         for (int k = 0; k < c.at.terms; k++) {
-            const double g = c.law->g[k], *const decay = row->arms->decay[k], *const gain = row->arms->gain[k];
+            const double g = c.law->g[k], *const decay = row->arms[k].decay, *const gain = row->arms[k].gain;
             EACH_ELEMENT
             {
                 const double before = w[k * n + i];
@@ -43,7 +41,7 @@ INLINE void feel_end_slide(const struct call c, const double *change, int l, str
     const int n = c.at.n;
     struct rows *const row = &s->row[l];
     for (int d = 0; d < 2; d++) {
-        double *const w = c.in->state[l] + rst_at_w(c.law) + d * c.at.terms * n;
+        double *const w = w_of(c, l, 1 + d);
         EACH_ELEMENT row->trial[d][i] += c.r->viscosity * change[d] * row->touch[i];
         for (int k = 0; k < c.at.terms; k++)
             EACH_ELEMENT w[k * n + i] += c.r->bend[k] * change[d] * row->touch[i];
@@ -81,7 +79,7 @@ INLINE void look_at_last_slide(const struct call c, int l, struct work *s)
     const int n = c.at.n, last = s->last[l], j = last > 0 ? last - 1 : 0, before = j > 0 ? j - 1 : 0;
     const struct rows *const row = &s->row[l];
     for (int d = 0; d < 2; d++) {
-        const double *const w = c.in->state[l] + rst_at_w(c.law) + d * c.at.terms * n;
+        const double *const w = w_of(c, l, 1 + d);
         const double back = (row->trial[d][j] - row->q[d][j]) * c.r->compliance;
         s->q_last[d][l] = row->q[d][j];
         s->q_before[d][l] = row->q[d][before];
@@ -141,8 +139,7 @@ INLINE void spring_back(const struct call c, int l, struct work *s)
     const double half = c.law->eta > 0 ? 0 : 0.5;
     if (c.at.details) EACH_ELEMENT slipped[i] = 0;
     for (int d = 0; d < 2; d++) {
-        double *const u = c.in->state[l] + rst_at_u(c.law) + d * n, *const w = c.in->state[l] + rst_at_w(c.law) +
-                                                                               d * c.at.terms * n;
+        double *const u = u_of(c, l, 1 + d), *const w = w_of(c, l, 1 + d);
         EACH_ELEMENT
         {
             back[i] = (row->trial[d][i] - row->q[d][i]) * c.r->compliance;
@@ -164,7 +161,7 @@ INLINE void spring_back(const struct call c, int l, struct work *s)
     EACH_ELEMENT slipped[i] = c.law->weight[i] * larger(slipped[i], 0);
     s->slipped[l] = sum_of(slipped, n);
     EACH_ELEMENT slipped[i] = c.law->weight[i] * row->at_rest[i];
-    s->spent[l] += c.law->tangential * s->width[l] * sum_of(slipped, n);
+    s->spent[l] += c.law->tangential * c.in->width[l] * sum_of(slipped, n);
 }
 
 /* Elements of a contact within the limit of friction; `viscous`: the velocity of the end of the
@@ -176,32 +173,16 @@ INLINE void slide(const struct call c, int viscous, int l, struct work *s)
     if (!viscous) spring_back(c, l, s);
 }
 
-/* The integral over the contact radius. */
-INLINE void close_slide(const struct call c, struct work *s)
-{
-    hold_rim(c, s);
-    for (int l = 0; l < LANES; l++) {
-        s->front[l] = s->known[l] = 0;
-        if (c.at.turns) follow_turn(c, l, s);
-        add_kinks(c, l, s);
-    }
-    add_kink_at_rim(s);
-    for (int l = 0; l < LANES && c.at.turns; l++)
-        keep_turn(c, l, s);
-}
-
 INLINE void shear(const struct call c, struct work *s)
 {
     const double per_step = 1 / c.step, normal_over_tangential = c.law->normal / c.law->tangential;
     EACH_LANE
     {
-        for (int d = 0; d < 2; d++) {
-            const double *const e[3] = {d ? s->other[0] : s->axis[0], d ? s->other[1] : s->axis[1],
-                                        d ? s->other[2] : s->axis[2]};
-            s->speed[d][l] =
-                e[0][l] * c.in->velocity[0][l] + e[1][l] * c.in->velocity[1][l] + e[2][l] * c.in->velocity[2][l];
-            s->move[d][l] = c.step * s->speed[d][l];
-        }
+        const double x = c.in->velocity[0][l], y = c.in->velocity[1][l], z = c.in->velocity[2][l];
+        s->speed[0][l] = s->axis[0][l] * x + s->axis[1][l] * y + s->axis[2][l] * z;
+        s->speed[1][l] = s->other[0][l] * x + s->other[1][l] * y + s->other[2][l] * z;
+        s->move[0][l] = c.step * s->speed[0][l];
+        s->move[1][l] = c.step * s->speed[1][l];
         s->limit_ratio[l] = c.in->friction[l] * normal_over_tangential;
     }
     const int viscous = c.at.terms + c.at.surface > 0 && c.r->viscosity > 0;
@@ -214,7 +195,7 @@ INLINE void shear(const struct call c, struct work *s)
         lanes change[2];
         EACH_LANE
         {
-            const double scale = c.law->tangential * s->width[l];
+            const double scale = c.law->tangential * c.in->width[l];
             const double sticking = s->sticking[l] + s->last_sticks[l] * (s->inner[l] + s->outer[l]);
             const double response =
                 scale * velocity_response(0.5 * c.step * c.in->inverse_mass[1][l], scale * sticking * c.r->viscosity);
@@ -230,13 +211,21 @@ INLINE void shear(const struct call c, struct work *s)
             slide(c, 0, l, s);
         }
     }
-    close_slide(c, s);
+    hold_rim(c, s);
+    for (int l = 0; l < LANES; l++) {
+        s->front[l] = s->front_along[0][l] = s->front_along[1][l] = s->known[l] = 0;
+        if (c.at.turns) follow_turn(c, l, s);
+        add_kinks(c, l, s);
+    }
+    add_kink_at_rim(s);
+    for (int l = 0; l < LANES && c.at.turns; l++)
+        keep_turn(c, l, s);
     EACH_LANE /* the kinks may have taken the force beyond Coulomb's limit; its square may underflow */
     {
-        const double scale = c.law->tangential * s->width[l], limit = c.in->friction[l] * s->force[l];
-        const double x = scale * s->total[0][l], y = scale * s->total[1][l], one = larger(fabs(x), fabs(y));
-        const double safe = or_one(one > 0, one), px = x / safe, py = y / safe, size = one * sqrt(px * px + py * py);
-        const double most = larger(size, limit), kept = limit / or_one(most > 0, most);
+        const double scale = c.law->tangential * c.in->width[l], limit = c.in->friction[l] * s->force[l];
+        const double x = scale * s->total[0][l], y = scale * s->total[1][l];
+        const double one = larger(larger(fabs(x), fabs(y)), DBL_MIN), px = x / one, py = y / one;
+        const double kept = limit / larger(larger(limit, one * sqrt(px * px + py * py)), DBL_MIN);
         s->total[0][l] = x * kept;
         s->total[1][l] = y * kept;
     }
@@ -245,7 +234,7 @@ INLINE void shear(const struct call c, struct work *s)
     {
         s->slipped[l] += (s->inner[l] * s->q_last[0][l] + s->outer[l] * s->rim[0][l]) * s->back[0][l] +
                          (s->inner[l] * s->q_last[1][l] + s->outer[l] * s->rim[1][l]) * s->back[1][l];
-        s->slipped[l] *= c.law->tangential * s->width[l] * s->touches[l];
+        s->slipped[l] *= c.law->tangential * c.in->width[l] * s->touches[l];
     }
 }
 

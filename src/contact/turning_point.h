@@ -5,12 +5,6 @@
 
 #include "contact/lanes.h"
 
-/* int p dx from x1 to x2 if p is linear in x^2, 1 at x1 and 0 at x2, whichever is larger. */
-INLINE double weight_of(double x1, double x2)
-{
-    return fabs(x2 - x1) * (2 * x2 + x1) / larger(3 * (x1 + x2), DBL_MIN);
-}
-
 INLINE double size_of(const double *v)
 {
     return sqrt(v[0] * v[0] + v[1] * v[1]);
@@ -49,7 +43,7 @@ INLINE struct place place_of(const struct call c, double y, int l, const struct 
 INLINE void bend_at(const struct place *p, const double *q, int l, struct work *s)
 {
     const double share = (p->y - p->y_in) / larger(p->y_out - p->y_in, DBL_MIN);
-    const double weight = weight_of(p->x, p->x_in) + weight_of(p->x, p->x_out);
+    const double weight = rst_weight_of(p->x, p->x_in) + rst_weight_of(p->x, p->x_out);
     for (int d = 0; d < 2; d++)
         s->total[d][l] += weight * (q[d] - p->q_in[d] - share * (p->q_out[d] - p->q_in[d]));
 }
@@ -70,7 +64,7 @@ INLINE double front_of(const struct place *p, const double *q, const double *the
     const double margin = p->limit - (along[0] * q[0] + along[1] * q[1]);
     const double margin_at_edge = at_edge - moved - cosine * (at_edge - (p->limit - was));
     const bool begins = (margin > 0) & (margin_at_edge < 0);
-    return begins ? p->y + (edge - p->y) * margin / or_one(begins, margin - margin_at_edge) : 0;
+    return begins ? p->y + (edge - p->y) * quotient(margin, margin - margin_at_edge) : 0;
 }
 
 /* A turning point is put where slip begins: u and w, as of an element near by with the force
@@ -137,16 +131,16 @@ INLINE void count_slip(const struct call c, const struct place *p, const double 
     const double move = along[0] * s->move[0][l] + along[1] * s->move[1][l];
     const double slip = larger(move - s->limit_ratio[l] * s->approach[l] * c.step, 0);
     const double limit = along[0] * p->q_out[0] + along[1] * p->q_out[1];
-    s->slipped[l] += slip * (p->limit * weight_of(p->x, p->x_out) + limit * weight_of(p->x_out, p->x));
+    s->slipped[l] += slip * (p->limit * rst_weight_of(p->x, p->x_out) + limit * rst_weight_of(p->x_out, p->x));
     for (int d = 0; d < 2 && out < s->last[l]; d++)
         s->slipped[l] -=
-            weight_of(p->x_out, p->x_in) * row->q[d][out] * (row->trial[d][out] - row->q[d][out]) * c.r->compliance;
+            rst_weight_of(p->x_out, p->x_in) * row->q[d][out] * (row->trial[d][out] - row->q[d][out]) * c.r->compliance;
 }
 
 /* q is not linear in y between elements at the turning point, nor where slip begins beyond it. */
 INLINE void follow_turn(const struct call c, int l, struct work *s)
 {
-    double *const turn = c.in->state[l] + rst_at_turn(c.law), q[2] = {0}, along[2] = {0};
+    double *const turn = c.in->state[l] + rst_at_turn(c.at), q[2] = {0}, along[2] = {0};
     const double at_edge = s->limit_ratio[l] * s->at_rim[l];
     struct place p = {0};
     if (!(turn[turn_y] > 0)) return;
@@ -181,15 +175,15 @@ INLINE void follow_turn(const struct call c, int l, struct work *s)
 /* Where slip begins and no turning point is yet, one is put: slip may turn there. */
 INLINE void keep_turn(const struct call c, int l, struct work *s)
 {
-    double *const state = c.in->state[l], *const turn = state + rst_at_turn(c.law);
+    double *const turn = c.in->state[l] + rst_at_turn(c.at);
     if (turn[turn_y] > 0 || !(s->front[l] > 0)) return;
     const double along[2] = {s->front_along[0][l], s->front_along[1][l]};
     const struct place p = place_of(c, s->front[l], l, s);
     if (c.at.details) count_slip(c, &p, along, l, s);
     for (int d = 0; d < 2; d++) {
-        turn[turn_u + d] = state[rst_at_u(c.law) + d * c.at.n + p.in];
+        turn[turn_u + d] = u_of(c, l, 1 + d)[p.in];
         for (int k = 0; k < c.at.terms; k++)
-            turn[turn_w + d * c.at.terms + k] = state[rst_at_w(c.law) + (d * c.at.terms + k) * c.at.n + p.in];
+            turn[turn_w + d * c.at.terms + k] = w_of(c, l, 1 + d)[k * c.at.n + p.in];
     }
     put_turn(c, &p, along, p.q_in, turn);
 }

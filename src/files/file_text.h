@@ -11,9 +11,9 @@ struct file_text {
     size_t length;
 };
 
-/* Read all of the regular file `path` ("-": standard input) of up to `most` bytes. The caller frees
+/* Read all of the regular file `path` of up to 64 MiB, a million of terms. The caller frees
  * text->bytes. */
-int rst_file_text_read(const char *path, uint64_t most, struct file_text *text, restitute_error *error);
+int rst_file_text_read(const char *path, struct file_text *text, restitute_error *error);
 
 /* FNV-1a over the text, continued from `start`; begin with FILE_FINGERPRINT_START. */
 #define FILE_FINGERPRINT_START UINT64_C(14695981039346656037)

@@ -12,7 +12,6 @@
 
 #include "base/report.h"
 #include "base/sized.h"
-#include "files/csv_table.h"
 #include "files/file_text.h"
 #include "files/json_place.h"
 #include "files/prony_terms.h"
@@ -323,7 +322,7 @@ static int read_json_material(const char *path, restitute_material **material, r
                               restitute_error *error)
 {
     struct file_text text;
-    int status = rst_file_text_read(path, RST_BYTES_OF_MATERIAL, &text, error);
+    int status = rst_file_text_read(path, &text, error);
     if (status != RESTITUTE_OK) return status;
     json_error_t reason;
     struct material_file file = {path, rst_file_name_for_message(path), text.bytes, NULL, 0, error};

@@ -233,10 +233,10 @@ static void corrupt_states_are_refused(void **unused)
     struct drive d = loaded(law);
     restitute_contact_force force = d.force;
     restitute_error error;
-    d.state[2] = NAN; /* the normal force */
+    d.state[5] = NAN; /* the normal force */
     assert_int_equal(restitute_contact_peek(law, d.motion.normal, d.state, &force, &error), RESTITUTE_ERROR_DOMAIN);
     assert_non_null(strstr(error.message, "corrupt"));
-    d.state[16] = NAN; /* a tangential displacement */
+    d.state[32] = NAN; /* a tangential displacement */
     assert_int_equal(restitute_contact_step(law, &d.rates, &d.motion, d.state, &force, &error), RESTITUTE_ERROR_DOMAIN);
     assert_non_null(strstr(error.message, "corrupt"));
     assert_memory_equal(&force, &d.force, sizeof force);
@@ -293,7 +293,7 @@ static void assemble(struct crowd *c, restitute_contact_law *law, restitute_cont
     memcpy(c->corrupt, here.state, sizeof c->corrupt);
     for (size_t k = 8; k < restitute_contact_law_state_size(law); k++)
         c->corrupt[k] = NAN;
-    c->corrupt[1] = NAN; /* all but the mark of the law and the tangential axis */
+    c->corrupt[4] = NAN; /* all but the mark of the law and the tangential axis */
     for (int i = 0; i < most_contacts; i++) {
         c->motion[i] = here.motion;
         c->state[i] = c->pool + i * 5 % most_contacts * (most_state + 3);
@@ -360,7 +360,7 @@ static double *spoil(struct crowd *c, int kind, int i, restitute_contact_motion 
     case 11: /* turned by more than 60 degrees */
         memcpy(c->young, c->corrupt, sizeof c->young);
         for (int k = 0; k < 3; k++)
-            m->normal[k] = c->young[5 + k];
+            m->normal[k] = c->young[1 + k];
         return c->young;
     default:
         return c->corrupt;

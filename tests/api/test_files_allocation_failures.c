@@ -1,4 +1,4 @@
-/* Every allocation of every call of the component files fails in turn, those of libcsv too:
+/* Every allocation of every call of the component files fails in turn:
  * ERROR_MEMORY, outputs untouched, and the same call gives the right result afterwards and leaks
  * nothing. Those of Jansson do not fail here: Jansson 2.14 writes beyond a text that could not
  * grow.
@@ -12,7 +12,6 @@
 
 #include <restitute/files.h>
 
-#include "files/csv_table.h"
 #include "files/number.h"
 
 #define STEM "test_files_allocation_failures"
@@ -46,20 +45,6 @@ static int material_read(struct given *given)
     give(given, restitute_material_modulus(material, 1e-3));
     give(given, (double)(info.fingerprint % 1000003));
     restitute_material_destroy(material);
-    return status;
-}
-
-static int csv_read(struct given *given)
-{
-    int status;
-    struct rst_csv *csv = UNTOUCHED;
-    ARMED(status, rst_csv_read(path, RST_BYTES_OF_TABLE, &csv, &error));
-    CHECK(status >= 0 || csv == UNTOUCHED, "output touched");
-    if (status < 0) return status;
-    give(given, (double)rst_csv_rows(csv));
-    give(given, (double)rst_csv_columns(csv));
-    give(given, rst_csv_cell(csv, 99, 1)[0]);
-    rst_csv_destroy(csv);
     return status;
 }
 
@@ -110,19 +95,11 @@ static void materials(void **state)
     allocator.ours_alone = 0;
 }
 
-static void tables_and_numbers(void **state)
+static void numbers(void **state)
 {
     (void)state;
-    const struct subject table = {"csv_read", NULL, csv_read, NULL, 0, 0};
     const struct subject number = {"number_read", NULL, number_read, NULL, 0, 0};
     if (!CAN_FAIL) skip();
-    FILE *file = fopen(CSV, "wb");
-    fputs("a,b,c\n", file);
-    for (int i = 0; i < 1000; i++)
-        fprintf(file, "%d,\"%0*d\",x\n", i, 10 + i, i); /* cells that the parser's buffer grows for */
-    fclose(file);
-    path = CSV;
-    fail_each_allocation(&table);
     fail_each_allocation(&number);
 }
 
@@ -136,6 +113,6 @@ static int remove_files(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(materials), cmocka_unit_test(tables_and_numbers)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(materials), cmocka_unit_test(numbers)};
     return cmocka_run_group_tests(tests, NULL, remove_files);
 }

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs the package, moves the tree, and builds and runs the programs of project/ against it:
 #   run.sh shared|static
-# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS SANITIZED PYTHON, and
-# WITH_ FILES CONTACT CVODE TABLE TABLE_FILES BEM FIT COMMAND PYTHON FORTRAN OPENMP. The
+# From the environment: SOURCE_DIR BUILD_DIR CMAKE GENERATOR CC FC SHARED_LIBS SANITIZED PYTHON
+# RESTITUTE, and WITH_ FILES CONTACT CVODE TABLE TABLE_FILES BEM FIT PYTHON FORTRAN OPENMP. The
 # working directory is used up.
 set -eu
 
@@ -37,7 +37,7 @@ else
         -DCMAKE_C_COMPILER="$CC" -DCMAKE_Fortran_COMPILER="$FC" -DRESTITUTE_FILES="$WITH_FILES" \
         -DRESTITUTE_CONTACT="$WITH_CONTACT" -DRESTITUTE_TABLE="$WITH_TABLE" -DRESTITUTE_TABLE_FILES="$WITH_TABLE_FILES" \
         -DRESTITUTE_CVODE="$WITH_CVODE" -DRESTITUTE_BEM="$WITH_BEM" -DRESTITUTE_FIT="$WITH_FIT" \
-        -DRESTITUTE_COMMAND="$WITH_COMMAND" -DRESTITUTE_FORTRAN="$WITH_FORTRAN" -DRESTITUTE_OPENMP="$WITH_OPENMP" \
+        -DRESTITUTE_FORTRAN="$WITH_FORTRAN" -DRESTITUTE_OPENMP="$WITH_OPENMP" \
         -DRESTITUTE_EXAMPLES=OFF
     "$CMAKE" --build other
 fi
@@ -78,8 +78,8 @@ user/consumer_cxx
 [ "$WITH_FILES" = OFF ] || user/consumer_files "$SOURCE_DIR/examples/materials/polyisobutylene.json"
 [ "$WITH_CONTACT" = OFF ] || user/consumer_contact
 [ "$WITH_TABLE" = OFF ] || user/consumer_table
-if [ "$WITH_TABLE_FILES" != OFF ] && [ "$WITH_COMMAND" != OFF ]; then
-    second/bin/restitute table build --material "$SOURCE_DIR/examples/materials/steel.json" --radius 0.01 \
+if [ "$WITH_TABLE_FILES" != OFF ] && [ "$WITH_PYTHON" != OFF ]; then
+    "$RESTITUTE" table build --material "$SOURCE_DIR/examples/materials/steel.json" --radius 0.01 \
         --partner same --friction 0.2 --tolerance 1e-2 --output user/table.h5
     user/consumer_table_files user/table.h5
 fi
@@ -186,14 +186,11 @@ if [ "$WITH_FILES" != OFF ]; then
         $(pkg-config --cflags --libs $static restitute-files)
     user/files_by_pkg_config "$SOURCE_DIR/examples/materials/polyisobutylene.json"
 fi
-if [ "$WITH_COMMAND" != OFF ]; then
-    echo "== the installed command finds its libraries"
-    unset LD_LIBRARY_PATH
-    second/bin/restitute --version
-fi
 packages=$(find "$prefix" -path '*-packages/restitute/__init__.py')
 if [ "$kind" = shared ] && [ "$WITH_PYTHON" != OFF ]; then
-    echo "== the installed Python package finds its libraries and materials"
+    echo "== the installed command and the installed Python package find libraries and materials"
+    unset LD_LIBRARY_PATH
+    PYTHONDONTWRITEBYTECODE=1 second/bin/restitute pair --material steel --radius 0.01 --density 7800 --speed 0.1 --friction 0.1
     [ -n "$packages" ] || fail "no Python package is installed"
     PYTHONPATH=$(dirname "$(dirname "$packages")") PYTHONDONTWRITEBYTECODE=1 "$PYTHON" -c "
 import restitute

@@ -11,9 +11,6 @@ import re
 import sys
 from pathlib import Path
 
-# These become Python: their includes name no folder, and circles among their own files are left.
-OLD_FOLDERS = ("cli",)
-OLD_FILES = tuple(f"{folder}/" for folder in OLD_FOLDERS)
 MADE_BY_CMAKE = ("base/version.h",)
 # A definition starts at the margin and its body with a brace there.
 DEFINITION = re.compile(r"^(?!static)\w[^;{}()=]*\b((?:rst|restitute)_\w+)\([^;{}]*\)\n\{", re.M)
@@ -31,13 +28,9 @@ def includes_of(src):
     arrows, astray = {}, []
     for path in paths:
         needed = arrows.setdefault(path.relative_to(src).with_suffix("").as_posix(), set())
-        places = [src]
-        if path.relative_to(src).parts[0] in OLD_FOLDERS:
-            places += [src / folder for folder in OLD_FOLDERS]
         for include in re.findall(r'^#include "([^"]+)"', text_of(path), re.M):
-            found = [place / include for place in places if (place / include).exists()]
-            if found:
-                needed.add(found[0].relative_to(src).with_suffix("").as_posix())
+            if (src / include).exists():
+                needed.add(Path(include).with_suffix("").as_posix())
             elif include not in MADE_BY_CMAKE:
                 astray.append(f"{path.relative_to(src)}: no file {include} in src")
     return arrows, astray
@@ -81,7 +74,7 @@ def circles_of(arrows):
 
     reached = {name: reach(name) for name in arrows}
     circles = {frozenset({name} | {other for other in reached[name] if name in reached.get(other, ())}) for name in arrows}
-    return sorted(sorted(circle) for circle in circles if len(circle) > 1 and not min(circle).startswith(OLD_FILES))
+    return sorted(sorted(circle) for circle in circles if len(circle) > 1)
 
 
 def main(tree):

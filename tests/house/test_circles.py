@@ -15,8 +15,8 @@ SOUND = {
     "src/base/status.c": '#include "base/status.h"\nint rst_one(void)\n{\n    return 1;\n}\n',
     "src/table/form.h": '#include "base/status.h"\nint rst_two(void);\n',
     "src/table/form.c": '#include "table/form.h"\nint rst_two(void)\n{\n    return rst_one();\n}\n',
-    "src/cli/main.c": '#include "options.h"\n#include "table/form.h"\n',
-    "src/cli/options.h": "",
+    "src/fit/search.c": '#include "fit/options.h"\n#include "table/form.h"\n',
+    "src/fit/options.h": "",
     "fortran/common/precision.f90": "module rst_precision\nend module rst_precision\n",
     "fortran/euler/euler.f90": "module rst_euler\n  use rst_precision, only: dp\nend module rst_euler\n",
 }
@@ -70,8 +70,8 @@ class Circles(unittest.TestCase):
         self.finds("a circle of arrows between folders of src: base, table",
                    {"src/base/scene.c": "int rst_five(void)\n{\n    return rst_two();\n}\n"})
 
-    def test_the_command_may_not_be_needed_by_a_component(self):
-        self.finds("a circle of arrows between folders of src: cli, table", {"src/table/axis.h": '#include "cli/options.h"\n'})
+    def test_a_component_may_not_need_one_that_needs_it(self):
+        self.finds("a circle of arrows between folders of src: fit, table", {"src/table/axis.h": '#include "fit/options.h"\n'})
 
     def test_an_include_without_its_folder_is_found(self):
         self.finds("table/axis.h: no file form.h in src", {"src/table/axis.h": '#include "form.h"\n'})

@@ -221,6 +221,7 @@ def test_help_names_every_option_and_imports_no_numpy(name):
         assert all(option in done.stdout for option in action.option_strings)
 
 
+@pytest.mark.component("bem", "cvode", "fit", "table_files")
 def test_the_manual_page_says_what_help_says():
     template, page = DOCS / "restitute.1.in", DOCS / "restitute.1"
     if not template.exists():

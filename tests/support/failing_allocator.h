@@ -33,7 +33,7 @@
 #define skip() (print_message("skipped: no allocation can be made to fail here\n"), _skip(__FILE__, __LINE__))
 #endif
 
-/* Allocations are counted while armed, with `ours_alone` only those of our libraries and libcsv,
+/* Allocations are counted while armed, with `ours_alone` only those of our libraries,
  * with `others_alone` all others. Number `failing` fails, and with `for_good` all after it. None
  * fails within the function `spared`, see spare(). `live`: blocks not yet freed. With `others_lose`
  * blocks that other libraries leak are allowed. One thread. Volatile, since compilers take malloc
@@ -62,7 +62,7 @@ static int is_ours(void *code)
     Dl_info found, program;
     if (!dladdr(code, &found) || !dladdr((void *)(uintptr_t)is_ours, &program)) return 0;
     const char *slash = strrchr(found.dli_fname, '/'), *name = slash ? slash + 1 : found.dli_fname;
-    return found.dli_fbase == program.dli_fbase || !strncmp(name, "librestitute", 12) || !strncmp(name, "libcsv", 6);
+    return found.dli_fbase == program.dli_fbase || !strncmp(name, "librestitute", 12);
 }
 
 /* Whether a call of the function `spared` is under way. */
