@@ -148,7 +148,7 @@ def test_the_column_with_more_values_is_the_axis():
 
 def test_svg_has_text_as_text_no_date_and_the_same_bytes_every_time(pairs):
     def drawn():
-        ax = plot.sheet(title="A $5 <b> & $6 \x01 title", note="friction 0.3 " * 30, origin="made so")
+        ax = plot.sheet(title="A $5 <b> & $6 \x01 title", note="friction 0.3 " * 30, origin="so")
         return svg(plot.map(SPEED, ANGLE, pairs, ax=ax))
 
     image = drawn()

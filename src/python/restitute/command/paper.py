@@ -10,7 +10,7 @@ from restitute.command.options import Refusal, emit, listed, say
 
 _DRAWN = (".svg", ".pdf")
 _ROWS = (".csv", ".csv.meta.json", ".csv.partial", ".csv.partial.json")
-_EPILOG = """A figure becomes NAME.csv, NAME.svg and NAME.pdf in the folder --output (default: here):
+_EPILOG = """A figure becomes NAME.csv, NAME.svg and NAME.pdf in the folder --output, or here:
   restitute paper fig4 --output figures
   restitute paper all --output figures --material polyisobutylene
 fig4, fig6: ez; fig5, fig8, fig9: ex over delta1 and psi; fig7: ex without slip; fig10, fig11: psi_c
