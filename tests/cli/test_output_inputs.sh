@@ -77,7 +77,9 @@ if "$RESTITUTE" history --psi 1 --events e.csv --output h.csv 2>err; then
     "$RESTITUTE" history --psi 1 --events - --output same.csv >same.csv 2>err && fail "two outputs in one file"
     has err '--events and --output are the same file'
 fi
-if have gnuplot; then
+"$RESTITUTE" history --psi 1 --samples 5 --output h.csv --figure f.svg >out 2>err
+if ! grep -q 'needs matplotlib' err; then
+    rm -f h.csv h.csv.meta.json f.svg
     cp polyisobutylene.json in.json
     ln -s in.json figure.svg
     clash '--figure = figure.svg' '--material in.json' history --material in.json $body --velocity 1 --figure figure.svg --output h.csv

@@ -2,6 +2,7 @@
 """Work in chunks: threads, processes, dask, MPI; workers that die; the bits of one thread."""
 
 import os
+import pickle
 import shutil
 import signal
 import subprocess
@@ -13,7 +14,7 @@ from multiprocessing import get_context
 import numpy as np
 import pytest
 
-from restitute import DomainError, Material, map_chunks, pair
+from restitute import DomainError, Impacts, Material, map_chunks, pair, solve
 
 RUBBER = Material.standard_solid(1e6, 3e6, 300.0)
 SPEED = np.geomspace(1e-3, 2e-2, 60).reshape(20, 3)
@@ -67,6 +68,14 @@ def test_threads_of_a_pool_give_the_bits_of_one(chunk):
         here = pair(RUBBER, **BALL, energies=True)
         assert (result.ledger.rebound_z == here.ledger.rebound_z).all()
         assert pair(RUBBER, **{**BALL, "speed": np.empty((0, 3))}, executor=pool).shape == (0, 3)
+
+
+def test_a_chunk_takes_along_the_solids_that_it_needs():
+    solids = [Material.elastic(modulus) for modulus in np.geomspace(1e6, 1e7, 50)]
+    impacts = Impacts(solids, radius=0.001, density=1200, speed=0.01)
+    some = pickle.loads(pickle.dumps(impacts[10:12]))
+    assert some.solids == solids[10:12] and len(some) == 2
+    assert (solve(some).max_indentation == solve(impacts).max_indentation[10:12]).all()
 
 
 def test_failures_keep_their_place_and_words():

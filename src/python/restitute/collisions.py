@@ -113,4 +113,5 @@ def collide(material: Any, first: Body, second: Body, *, partner: Any = "rigid",
             if error.message[0] != b"\0":
                 solved.messages[i] = _library.message_of(error)
     pairs = report(None, shape, solved, asked, on_error)
-    return (*after((first, second), bodies, shape, solved.status < 0), pairs)
+    first, second = after((first, second), bodies, shape, solved.status < 0)
+    return first, second, pairs

@@ -26,7 +26,8 @@ def map_chunks(function: Callable[[Any], Any], chunks: Iterable[Any], executor: 
     executor : concurrent.futures.Executor or distributed.Client, optional
         By default the calling thread.
     retries : int
-        How often a chunk is sent again whose worker died. An exception of `function` is final.
+        How often a chunk is sent again whose worker died; to a new pool of processes, if that broke
+        it. An exception of `function` is final.
     progress : callable
         Called with the number of chunks done and of all, in the calling thread.
 

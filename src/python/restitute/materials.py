@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import math
 import os
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -231,16 +232,16 @@ class Material:
         """
         if time_shift == 1:
             return self
-        about = dict(zip(_ABOUT, self._about()))
         if self.parts:
             parts = (part.shifted(time_shift) for part in self.parts)
-            return Material.effective(*parts, **about)
+            return Material.effective(*parts, **self._about())
         s = self.series
         return Material.prony(s.relaxation_time * time_shift, s.modulus, s.equilibrium_modulus,
-                              s.parallel_viscosity * time_shift, self.poisson_ratio, **about)
+                              s.parallel_viscosity * time_shift, self.poisson_ratio,
+                              **self._about())
 
     def _about(self):
-        return self.name, self.source, self.model, self.density
+        return {name: getattr(self, name) for name in ("name", "source", "model", "density")}
 
     def _key(self) -> tuple:
         s = self.series
@@ -254,7 +255,8 @@ class Material:
         return hash(self._key())
 
     def __reduce__(self):
-        return _again, (self._about(), self.parts or (*self.series, self.poisson_ratio))
+        make: Any = Material.effective if self.parts else Material.prony
+        return partial(make, **self._about()), self.parts or (*self.series, self.poisson_ratio)
 
     def __repr__(self):
         s = self.series
@@ -262,17 +264,6 @@ class Material:
         about = f"{self.name!r}, " if self.name else ""
         return (f"<restitute.Material {about}{self.model}, G(t) from {stiffest:.3g} to "
                 f"{s.equilibrium_modulus:.3g} Pa, nu = {self.poisson_ratio:.3g}>")
-
-
-_ABOUT = ("name", "source", "model", "density")
-
-
-def _again(about: tuple, constants: tuple) -> Material:
-    """What a pickled material becomes: of the same bits."""
-    words = dict(zip(_ABOUT, about))
-    if len(constants) == 2:
-        return Material.effective(*constants, **words)
-    return Material.prony(*constants, **words)
 
 
 def material_names() -> list[str]:

@@ -181,16 +181,25 @@ class Impacts:
 
     def __getitem__(self, part: slice) -> Impacts:
         some = object.__new__(Impacts)
-        some.kind, some.solids, some.records = self.kind, self.solids, self.records[part]
-        some.shape, some.refused = some.records.shape, {}
+        some.kind, some.records, some.refused = self.kind, self.records[part].copy(), {}
+        some.shape = some.records.shape
+        some.solids, place = self._used(some.records)
+        some.records["material"] = place
         return some
+
+    def _used(self, records):
+        """The solids of records, and the place of each among them."""
+        if not self.solids:
+            return [], 0
+        used, place = np.unique(records["material"], return_inverse=True)
+        return [self.solids[i] for i in used.tolist()], place
 
     def bound(self, begin: int = 0, end: int | None = None) -> np.ndarray:
         """Records for C, with the addresses of materials; valid as long as these impacts are."""
         records = self.records[begin:end].copy()
         if self.solids:
-            addresses = np.array([solid.address for solid in self.solids], np.uint64)
-            records["material"] = addresses[records["material"].astype(np.int64)]
+            solids, place = self._used(records)
+            records["material"] = np.array([solid.address for solid in solids], np.uint64)[place]
         return records
 
     def numbers(self) -> Columns:

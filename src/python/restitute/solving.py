@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import os
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -144,7 +145,8 @@ def _solve_task(task: tuple) -> Solved:
 def _solve_here(impacts, settings, energies, stop, progress):
     value, total = options(**settings), len(impacts)
     solved = Solved.empty(total, energies)
-    begin, piece = 0, max(1, value.threads)
+    least = value.threads or os.cpu_count() or 1  # so that every thread has an impact
+    begin, piece = 0, least
     with solver(value) as made:
         while begin < total and not (stop and np.any(solved.status[:begin] < 0)):
             end, since = min(begin + piece, total), time.monotonic()
@@ -156,7 +158,7 @@ def _solve_here(impacts, settings, energies, stop, progress):
             if took < _PIECE / 2:
                 piece *= 2
             elif took > 2 * _PIECE:
-                piece = max(1, value.threads, piece // 2)
+                piece = max(least, piece // 2)
             if progress:
                 progress(begin, total)
     solved.results["method"] = 0

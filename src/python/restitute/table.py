@@ -385,7 +385,7 @@ def _struct(contact):
 def _speeds(normal, sliding):
     """Both as contiguous arrays of one dimension, and their broadcast shape."""
     both = np.broadcast_arrays(np.asarray(normal, float), np.asarray(sliding, float))
-    return (*(np.array(one, float).ravel() for one in both), both[0].shape)
+    return (*(np.ascontiguousarray(one).ravel() for one in both), both[0].shape)
 
 
 def _scene(material, contact):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`restitute pair --input` and `--grid`: rows are solved in pieces, in order, into OUT.partial, which
-becomes OUT at the end."""
+"""`restitute pair --input` and `--grid`: rows are solved in pieces, in order, into OUT.partial,
+which becomes OUT at the end."""
 import io
 import os
 import signal
@@ -8,6 +8,7 @@ import time
 import warnings
 from contextlib import contextmanager, nullcontext
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
@@ -16,35 +17,67 @@ from restitute.command import files, grid, options, problem, provenance
 from restitute.command.options import Refusal, say
 from restitute.command.partial import Partial
 from restitute.command.rows import Rows
+from restitute.errors import Error
 
 DONE, FAILED, INTERRUPTED = 0, 1, 130
 _NAMED_FAILURES = 5
-_FORMATS = {".h5": "hdf5", ".hdf5": "hdf5"}
 
 
 def run(arguments, made=None):
-    """Solve the rows of a file or a grid. Everything that can be refused is, before anything is
-    written.
+    """Solve the rows of a file or a grid.
+
+    Everything that can be refused is, before anything is written.
 
     Parameters
     ----------
     made : optional
         Instead of them `made.cases`, and `made.source` for the record. At the end
-        `made.finish(batch, interrupted)` gives the exit status.
+        `made.finish(batch)` gives the exit status.
     """
-    batch = _Batch(arguments, made)
-    with _interrupts() as interrupts, _scheduler(arguments) as executor:
+    _check_options(arguments)
+    with _scheduler(arguments) as executor:
+        batch = _Batch(arguments, made)
         try:
-            batch.solve(executor, interrupts)
+            batch.open()
+            batch.solve(executor)
+            batch.write()
         except KeyboardInterrupt:
-            say(f"interrupted after {batch.done} of {batch.cases.rows} rows"
+            done = batch.partial.rows() if batch.partial else batch.done
+            say(f"interrupted after {done} of {batch.cases.rows} rows"
                 f"{'; continue with --resume' if batch.partial else ''}")
             return INTERRUPTED
-        except Refusal as why:
-            raise Refusal(batch.left(why)) from None
+        except Exception as why:
+            if executor is None and not isinstance(why, (Refusal, Error)):
+                raise
+            text = str(why) if isinstance(why, (Refusal, Error)) else \
+                f"--scheduler = {arguments.scheduler}: {type(why).__name__}: {why}"
+            more = "; continue with --resume when that is mended" if batch.partial else ""
+            raise Refusal(f"{text}{more}") from None
         finally:
             batch.leave()
-    return made.finish(batch, interrupts.came) if made else batch.report()
+    return made.finish(batch) if made else batch.report()
+
+
+def _check_options(arguments):
+    if arguments.input is not None and arguments.grid is not None:
+        raise Refusal("--input and --grid are both given: use one")
+    if arguments.format == "text":
+        raise Refusal('--format = "text": must be csv or json with --input and --grid')
+    if arguments.contours and not arguments.figure:
+        raise Refusal("--contours: needs --figure")
+    if arguments.resume and files.is_stream(arguments.output):
+        raise Refusal("--resume: needs --output FILE")
+    files.check(arguments.output, "--output")
+    if arguments.figure:
+        if not arguments.figure.lower().endswith((".svg", ".png", ".pdf")):
+            raise Refusal(f"--figure = {arguments.figure}: must be a file that ends in .svg, .png "
+                          "or .pdf")
+        files.check(arguments.figure, "--figure")
+        options.need("matplotlib", "--figure")
+    arguments.format = arguments.format or "csv"
+    if (arguments.output or "").lower().endswith((".h5", ".hdf5")):
+        options.need("h5py", f"--output = {arguments.output}")
+        arguments.format = "hdf5"
 
 
 class _Batch:
@@ -55,83 +88,74 @@ class _Batch:
     done : int
         Rows that are written.
     partial : Partial or None
-        None: a stream.
+        Where they are; None: a stream.
     """
 
-    def __init__(self, arguments, made=None):
-        self.arguments, self.done, self.partial, self.stream = arguments, 0, None, None
-        self.output, self.figure = arguments.output, arguments.figure
-        _check_options(arguments)
-        self.format = arguments.format or _FORMATS.get(
-            os.path.splitext(self.output or "")[1].lower(), "csv")
-        if self.format == "hdf5":
-            options.need("h5py", f"--output = {self.output}")
+    def __init__(self, arguments, made):
+        from restitute.solving import options as checked
+
+        self.arguments, self.output = arguments, arguments.output
+        self.done = self.failures = 0
+        self.partial: Any = None
+        self.stream: Any = None
         self.given = problem.values_of(arguments)
         self.solution = problem.solution(arguments, method="euler", tolerance=1e-3)
+        self.limits = checked(**self.solution)
         if made:
             self.cases, source, other = made.cases, made.source, []
         else:
             self.cases, source = (case_files.read(arguments.input) if arguments.input is not None
                                   else grid.read(arguments.grid))
             other = self.cases.check(self.given, problem.place_of_options(arguments))
-        if self.figure:
-            self.axes = self._figure_axes()
-        from restitute.solving import options as checked
-
-        self.limits = checked(**self.solution)
-        self._check_places()
+        self.axes = self._figure_axes() if arguments.figure else None
+        materials = {name: texts for name in ("material", "partner")
+                     if (texts := self.cases.materials(name)) is not None}
+        self._check_places(materials)
         self.cases.read()
-        self.settings = provenance.settings(arguments, {**self._materials(), "input": source})
+        # What columns name belongs to the inputs that a resumed run must find again.
+        self.settings = provenance.settings(arguments, {"input": source, **{
+            name: {text: provenance.of_material(text) for text in texts}
+            for name, texts in materials.items()}})
         self.rows = Rows(self.cases, self.solution["method"])
         if other:
             say(f"remark: {self.cases.source}: passed through as unknown: {', '.join(other)}")
-        self._open()
 
-    def _check_places(self):
-        places, texts = files.Places(), []
+    def _check_places(self, materials):
+        places = files.Places()
         places.read("--input", self.arguments.input)
-        for name in ("material", "partner"):
-            if self.given.get(name) not in (None, "rigid", "same"):
-                places.read(f"--{name}", self.given[name])
-                texts.append(self.given[name])
-            texts += self.cases.materials(name) or []
-        for text in texts:
+        provenance.read_materials(places, self.given)
+        for text in [text for texts in materials.values() for text in texts]:
             places.read("material", text)
             places.read("prony_csv", provenance.series_of(text))
         places.write("--output", self.output, ".meta.json", ".partial", ".partial.json")
-        if self.figure:
-            places.write("--figure", self.figure)
+        if self.arguments.figure:
+            places.write("--figure", self.arguments.figure)
         places.check()
 
-    def _materials(self):
-        """The materials that columns name: their contents belong to the inputs that a resumed run
-        must find again."""
-        columns = {name: self.cases.materials(name) for name in ("material", "partner")}
-        return {name: {text: provenance.of_material(text) for text in texts}
-                for name, texts in columns.items() if texts is not None}
-
-    def _open(self):
-        """Where rows go that need not wait for the others."""
-        if not files.is_stream(self.output):
-            self.partial = Partial(self.output, self.arguments.resume)
-            fresh = self.partial.empty
-            try:
-                if not fresh:
-                    self.partial.check_settings(self.settings)
-                    self.partial.cut()
-                if self.partial.empty:
-                    self.partial.begin(self.settings, self.rows.header())
-                else:
-                    self.done = self.rows.read(self.partial.path)
-            except BaseException:
-                if fresh:
-                    self.partial.remove()
-                self.partial.leave()
-                raise
-        elif self.format == "csv":
-            self.stream = 1 if files.is_standard(self.output) else \
-                files.Place(self.output).open_through()
-            self._send(self.rows.header())
+    def open(self):
+        """Where rows go that need not wait for the others; takes the rows that are there."""
+        if files.is_stream(self.output):
+            if self.arguments.format == "csv":
+                self.stream = 1 if files.is_standard(self.output) else \
+                    files.Place(self.output).open_through()
+                self._send(self.rows.header())
+            return
+        partial = Partial(self.output, self.arguments.resume)
+        fresh = partial.empty
+        try:
+            if not fresh:
+                partial.check_settings(self.settings)
+                partial.cut()
+            if partial.empty:
+                partial.begin(self.settings, self.rows.header())
+            else:
+                self.done = self.rows.read(partial.path)
+        except BaseException:
+            if fresh:
+                partial.remove()
+            partial.leave()
+            raise
+        self.partial = partial
 
     def _send(self, text):
         if self.partial:
@@ -148,97 +172,79 @@ class _Batch:
         if self.stream not in (None, 1):
             os.close(self.stream)
 
-    def left(self, why):
-        """A refusal after rows were written."""
-        return f"{why}; continue with --resume when that is mended" if self.partial else str(why)
-
-    def solve(self, executor, interrupts):
-        """All rows, piece by piece, and the files.
+    def solve(self, executor):
+        """All rows, piece by piece.
 
         A piece has a row for each thread, and as many more as take about 0.4 s (20 s elsewhere), so
         that whoever looks on, interrupts or resumes sees rows.
         """
         threads = self.arguments.threads or len(os.sched_getaffinity(0))
         size, wanted = (threads, 0.4) if executor is None else (256, 20.0)
-        for row in range(self.done):
-            self._name_failure(row)
+        self._name_failures(0, self.done)
         with _progress(self.cases.rows, self.done) as progress:
             while self.done < self.cases.rows:
                 begin, end = self.done, min(self.done + size, self.cases.rows)
                 since = time.monotonic()
-                self._solve_rows(begin, end, threads, executor)
-                with interrupts.held():
-                    for row in range(begin, end) if self._failures < _NAMED_FAILURES else ():
-                        self._name_failure(row)
-                    self._send(self.rows.lines(begin, end))
-                    self.done = end
+                self._solve_rows(begin, end, threads=threads, executor=executor)
+                self._name_failures(begin, end)
+                self._send(self.rows.lines(begin, end))
+                self.done = end
                 progress(end - begin)
                 took = time.monotonic() - since
                 size = 2 * size if took < wanted / 2 else max(threads, size // 2) \
                     if took > 2 * wanted else size
-        interrupts.holding = True  # it is not worth stopping any more
-        self._write()
 
-    _failures = 0
+    def _solve_rows(self, begin, end, **how):
+        from restitute.impact import solve
 
-    def _name_failure(self, row):
-        """The first few rows that fail are named at once; the rest is in the column status."""
-        if not self.rows.solved[row] and self._failures < _NAMED_FAILURES:
-            self._failures += 1
-            say(f"{self.cases.where(row)}: {self.rows.status[row]}")
-
-    def _solve_rows(self, begin, end, threads, executor):
-        for row in (row for row in range(begin, end) if row in self.cases.reasons):
+        for row in np.flatnonzero(~self.cases.good[begin:end]) + begin:
             self.rows.status[row] = self.cases.reasons[row]
         for rows, values in self.cases.values(begin, end, self.given):
             for some, impacts in _impacts(rows, values, self.cases.place, self.rows.status):
                 with warnings.catch_warnings():
                     warnings.simplefilter("ignore")  # they are counted over all rows
-                    from restitute.impact import solve
-
-                    pairs = solve(impacts, on_error="nan", threads=threads, executor=executor,
-                                  **self.solution)
+                    pairs = solve(impacts, on_error="nan", **how, **self.solution)
                 self.rows.take(some, pairs)
 
-    def _write(self):
+    def _name_failures(self, begin, end):
+        """The first few rows that fail are named at once; the rest is in the column status."""
+        failed = np.flatnonzero(~self.rows.solved[begin:end])[:_NAMED_FAILURES - self.failures]
+        self.failures += len(failed)
+        for row in begin + failed:
+            say(f"{self.cases.where(row)}: {self.rows.status[row]}")
+
+    def write(self):
+        """What is written when all rows are there."""
+        remarks, limits = self.rows.remarks()
         record = provenance.record(
             self.arguments, self.settings, self.rows.units(self.given), rows=self.cases.rows,
-            failed=int(np.count_nonzero(~self.rows.solved)))
-        remarks, limits = self.rows.remarks()
-        record.update(remarks=dict(remarks), limits_passed=dict(limits))
-        if self.format != "csv":
-            content = getattr(self.rows, self.format)(record)
-            files.write((self.output, content))
-            if self.partial:
-                self.partial.remove()
-        elif self.partial:
-            name = files.beside(self.output, ".meta.json")
-            try:
-                beside = files.NewFile(name, provenance.text(record))
-            except OSError as why:
-                raise files.not_written(name, why) from None
-            try:
-                self.partial.commit(self.cases.rows)
-                beside.commit()
-            finally:
-                beside.drop()
+            failed=int(np.count_nonzero(~self.rows.solved)), remarks=remarks, limits_passed=limits)
+        with _undisturbed():
+            if self.arguments.format != "csv":
+                files.write((self.output, getattr(self.rows, self.arguments.format)(record)))
+                if self.partial:
+                    self.partial.remove()
+            elif self.partial:
+                files.write((files.beside(self.output, ".meta.json"), provenance.text(record)),
+                            between=lambda: self.partial.commit(self.cases.rows))
 
     def report(self):
         """What is to be said of all rows, the figure, and the exit status."""
         from restitute.impact import LIMITS
 
+        of = f"of {self.cases.rows} rows"
         remarks, limits = self.rows.remarks()
         for remark, count in remarks.items():
-            say(f"remark: {count} of {self.cases.rows} rows: {remark}")
+            say(f"remark: {count} {of}: {remark}")
         for _, name, option, _, words in LIMITS:
-            if limits[name]:
-                say(f"remark: {limits[name]} of {self.cases.rows} rows pass the limit {name}: "
+            if name in limits:
+                say(f"remark: {limits[name]} {of} pass the limit {name}: "
                     f"{words.format(getattr(self.limits, option))}")
-        if self.figure:
+        if self.arguments.figure:
             self._draw()
         failed = np.count_nonzero(~self.rows.solved)
         if failed:
-            say(f"{failed} of {self.cases.rows} rows failed; the column status says why")
+            say(f"{failed} {of} failed; the column status says why")
         return FAILED if failed else DONE
 
     # ------------------------------------------------------------------------------- the figure
@@ -249,8 +255,6 @@ class _Batch:
                 for name, i in self.cases.known.items()}
 
     def _figure_axes(self):
-        files.check(self.figure, "--figure")
-        options.need("matplotlib", "--figure")
         from restitute import plot
 
         columns = self._columns()
@@ -266,60 +270,51 @@ class _Batch:
         import restitute
         from restitute import plot
 
+        figure, content = self.arguments.figure, io.BytesIO()
         if not self.rows.solved.any():
-            raise Refusal(f"{self.figure}: not drawn, no row was solved")
-        word, content = self.given.get("material"), io.BytesIO()
+            raise Refusal(f"{figure}: not drawn, no row was solved")
+        word = self.given.get("material")
         title = problem.material_of(word).name if word else "Restitution coefficients"
-        note = ", ".join(f"{name.replace('_', ' ')} {value:g}" + (
-            f" {problem.FIELDS[name].unit}" if problem.FIELDS[name].unit != "1" else "")
-            for name, value in self.given.items() if name in problem.FIELDS)
+        units = {name: f" {field.unit}".replace(" 1", "") for name, field in problem.FIELDS.items()}
+        note = ", ".join(f"{name.replace('_', ' ')} {value:g}{units[name]}"
+                         for name, value in self.given.items() if name in units)
         ax = plot.sheet(2, title, note, f"restitute {restitute.version()}, method "
                         f"{self.solution['method']}, tolerance {self.solution['tolerance']:g}")
         ez, ex = self.rows.values[:2]
-        pairs = SimpleNamespace(ez=ez, ex=ex, flags=self.rows.flags())
-        plot.grid(self._columns(), pairs, axes=self.axes, contours=self.arguments.contours,
-                  log=self.cases.log, noise=2 * self.solution["tolerance"], ax=ax)
-        plot.save(ax, content, os.path.splitext(self.figure)[1][1:].lower())
-        files.write((self.figure, content.getvalue()))
-
-
-def _check_options(arguments):
-    if arguments.input is not None and arguments.grid is not None:
-        raise Refusal("--input and --grid are both given: use one")
-    if arguments.format == "text":
-        raise Refusal('--format = "text": must be csv or json with --input and --grid')
-    if arguments.contours and not arguments.figure:
-        raise Refusal("--contours: needs --figure")
-    if arguments.resume and files.is_stream(arguments.output):
-        raise Refusal("--resume: needs --output FILE")
-    files.check(arguments.output, "--output")
+        plot.grid(self._columns(), SimpleNamespace(ez=ez, ex=ex, flags=self.rows.flags()),
+                  axes=self.axes, contours=self.arguments.contours, log=self.cases.log,
+                  noise=2 * self.solution["tolerance"], ax=ax)
+        plot.save(ax, content, os.path.splitext(figure)[1][1:].lower())
+        files.write((figure, content.getvalue()))
 
 
 def _impacts(rows, values, place, status):
-    """Impacts that give the same fields: the rows among them that can be described, and
-    `restitute.scenes.Impacts`. Why others cannot goes into `status`."""
-    def described(values):
-        return problem.impacts(problem.keywords(values, place), place)
+    """Impacts that give the same fields.
+
+    Returns
+    -------
+    list
+        The rows among them that can be described, and `restitute.scenes.Impacts`; or nothing. Why
+        others cannot goes into `status`.
+    """
+    def described(which):
+        some = {name: value[which] if np.ndim(value) else value for name, value in values.items()}
+        return problem.impacts(problem.keywords(some, place), place)
 
     try:
-        return [(rows, described(values))]
-    except Refusal as why:
-        reason = str(why)
+        return [(rows, described(slice(None)))]
+    except Refusal as why:  # perhaps because of one of them
+        status[rows] = str(why)
     good = []
     for i, row in enumerate(rows):
         try:
-            described({name: value[i] if np.ndim(value) else value
-                       for name, value in values.items()})
+            described(i)
             good.append(i)
         except Refusal as why:
             status[row] = str(why)
-    if not good:
-        return []
     try:
-        some = {name: value[good] if np.ndim(value) else value for name, value in values.items()}
-        return [(rows[good], described(some))]
+        return [(rows[good], described(good))] if good else []
     except Refusal:
-        status[rows[good]] = reason
         return []
 
 
@@ -329,50 +324,24 @@ def _impacts(rows, values, place, status):
 @contextmanager
 def _progress(total, done):
     """A function that takes how many more rows are done, and shows it on a terminal."""
-    if not os.isatty(2):
-        yield lambda more: None
-        return
     try:
         from tqdm import tqdm
     except ImportError:
+        tqdm = None
+    if tqdm is None or not os.isatty(2):
         yield lambda more: None
         return
     with tqdm(total=total, initial=done, unit=" rows", desc="restitute", dynamic_ncols=True) as bar:
         yield bar.update
 
 
-class _Interrupts:
-    """Signals that end a run, as KeyboardInterrupt, but not while a file is being written."""
-
-    def __init__(self):
-        self.came = self.holding = False
-
-    def handle(self, number, frame):
-        """The handler."""
-        self.came = True
-        if not self.holding:
-            raise KeyboardInterrupt
-
-    @contextmanager
-    def held(self):
-        """Put them off."""
-        self.holding = True
-        try:
-            yield
-        finally:
-            self.holding = False
-        if self.came:
-            raise KeyboardInterrupt
-
-
 @contextmanager
-def _interrupts():
-    interrupts, before = _Interrupts(), {}
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(number) is not signal.SIG_IGN:  # as nohup wants it
-            before[number] = signal.signal(number, interrupts.handle)
+def _undisturbed():
+    """Signals do not end the process while the last files are written."""
+    before = {number: signal.signal(number, signal.SIG_IGN)
+              for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
     try:
-        yield interrupts
+        yield
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)

@@ -3,6 +3,7 @@
 import csv
 import io
 import re
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +16,7 @@ RESULTS = ("ez", "ex", "contact_time", "max_indentation", "error_ez", "error_ex"
            "status")
 
 
-# ------------------------------------------------------------------------------------ tables of text
+# -------------------------------------------------------------------------------- tables of text
 
 
 class Table:
@@ -33,7 +34,8 @@ class Table:
     def __init__(self, content, source):
         self.source, self._place, self._opened = source, 0, 0
         text = _decoded(content, source)
-        rows, self.lines = [], []
+        rows: list = []
+        self.lines: list = []
         try:
             for row in csv.reader(self._lines(text), strict=True):
                 if rows and len(row) != len(rows[0]):
@@ -93,8 +95,8 @@ def _decoded(content, source):
 
 
 def _decimal_commas(row, columns):
-    more = len(row) > columns and all(re.fullmatch(r"[+-]?\d+(?:[eE][+-]?\d+)?", cell) for cell in row)
-    return "; decimal commas? numbers need decimal points" if more else ""
+    whole = all(re.fullmatch(r"[+-]?\d+(?:[eE][+-]?\d+)?", cell) for cell in row)
+    return "; decimal commas? numbers need decimal points" if whole and len(row) > columns else ""
 
 
 def read_bytes(path):
@@ -131,7 +133,8 @@ def numbers(texts, read):
     other = "\n".join(texts).encode("utf-8", "surrogateescape").translate(None, _DIGITS)
     try:
         values = np.array([float(text) for text in texts] if not other else
-                          [float(text) if options.NUMBER.fullmatch(text) else np.nan for text in texts])
+                          [float(text) if options.NUMBER.fullmatch(text) else np.nan
+                           for text in texts])
     except ValueError:
         values = np.full(len(texts), np.nan)
     reasons = {}
@@ -189,8 +192,9 @@ class Cases:
         What a file is called in messages; None: a grid.
     known : dict of str to int
         The column that gives a field or word, by its name.
+    good : ndarray of bool
     reasons : dict of int to str
-        Rows that are refused, and why.
+        Why rows are not.
     log : tuple of str
         Columns that --grid spaces evenly in the logarithm.
     """
@@ -261,7 +265,7 @@ class Cases:
         special = {"material": restitute.Material.elastic(1e6, density=1e3), "partner": "rigid",
                    "rotation_blocked": False, "shore_a": 50.0, "poisson_ratio": 0.3}
         values = {name: special.get(name, 1.0) for name in self.known}
-        for one, alternative in (("density", "mass"), ("density2", "mass2")):
+        for one, alternative in problem.EXCLUSIVE:
             if one in values:
                 values.pop(alternative, None)
         if "delta1" in values and not {"gamma", "delta2"} & {*values, *given}:
@@ -280,7 +284,7 @@ class Cases:
                 values, reasons = _field_values(problem.FIELDS[name], self.names[i], texts)
             else:
                 values, reasons = _word_values(name, self.names[i], texts)
-            given = True
+            given: Any = True
             if "" in texts and name in problem.FIELDS:
                 if name in problem.NEVER_EMPTY:
                     reasons[""] = f"{self.names[i]} is empty: {problem.FIELDS[name].allowed}"
@@ -295,8 +299,8 @@ class Cases:
                 for row, cell in enumerate(self.cells[i]):
                     if cell in reasons:
                         self.reasons.setdefault(row, reasons[cell])
-        self._good = np.ones(self.rows, bool)
-        self._good[list(self.reasons)] = False
+        self.good = np.ones(self.rows, bool)
+        self.good[list(self.reasons)] = False
 
     def values(self, begin, end, given):
         """Rows [begin, end) that are not refused, together with those that give the same fields.
@@ -307,7 +311,7 @@ class Cases:
         values : dict
             Arrays by name, and what options give.
         """
-        rows = begin + np.flatnonzero(self._good[begin:end])
+        rows = begin + np.flatnonzero(self.good[begin:end])
         kind = np.zeros(len(rows), np.int64)
         sometimes = [name for name, (_, filled) in self._columns.items() if filled is not True]
         for bit, name in enumerate(sometimes):

@@ -1,27 +1,28 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Outputs: whole files, under their final name only.
 
-    files.check(path, "--output")                  # before the work: refuses what cannot be written
-    places = files.Places()                        # likewise: no input is an output, no two outputs are one
+    files.check(path, "--output")           # before the work: refuses what cannot be written
+    places = files.Places()                 # likewise: no input is an output
     places.read("--material", material)
     places.write("--output", path, ".meta.json")
     places.check()
     files.write((path, text), (files.beside(path, ".meta.json"), record))
 
-The rule for every output: symbolic links are followed and stay. A regular file, or none yet, is replaced as a whole:
-it is written beside as OUT.restitute-N.tmp, locked, flushed to the disk, then renamed; it has the mode of the file
-that it replaces. A killed process leaves an unlocked temporary file, which the next output to that place removes. A
-device, a pipe, and an open file that /dev/stdout or /proc/self/fd/N names are written through. A folder, a socket and
-a block device are refused. No path, or "-", is standard output.
+The rule for every output: symbolic links are followed and stay. A regular file, or none yet, is
+replaced as a whole: it is written beside as OUT.restitute-N.tmp, locked, flushed to the disk, then
+renamed; it has the mode of the file that it replaces. A killed process leaves an unlocked temporary
+file, which the next output to that place removes. A device, a pipe, and an open file that
+/dev/stdout or /proc/self/fd/N names are written through. A folder, a socket and a block device are
+refused. No path, or "-", is standard output.
 """
 import errno
 import fcntl
 import os
 import stat
+from contextlib import suppress
+from typing import Any
 
 from restitute.command.options import Refusal, emit, write_all
-
-_NEW = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
 
 
 class Place:
@@ -29,7 +30,7 @@ class Place:
 
     Attributes
     ----------
-    target : str
+    target, folder : str
         The name behind all symbolic links.
     status : os.stat_result or None
         Of what is there; None: nothing yet.
@@ -40,13 +41,16 @@ class Place:
     """
 
     def __init__(self, path):
-        self.target, self.status, self.through, self.descriptor = path, None, False, None
+        self.target, self.through = path, False
+        self.status: Any = None
+        self.descriptor: Any = None
         self._follow_links()
-        if self.status and not stat.S_ISREG(self.status.st_mode):
-            special = stat.S_ISCHR(self.status.st_mode) or stat.S_ISFIFO(self.status.st_mode)
-            self.through = self.through or special
-            if not special and self.descriptor is None:
-                raise _error(errno.EISDIR if stat.S_ISDIR(self.status.st_mode) else errno.ENOTSUP)
+        self.folder = os.path.dirname(self.target) or "."
+        mode = self.status.st_mode if self.status else stat.S_IFREG
+        if stat.S_ISCHR(mode) or stat.S_ISFIFO(mode):
+            self.through = True
+        elif not stat.S_ISREG(mode) and self.descriptor is None:
+            raise _error(errno.EISDIR if stat.S_ISDIR(mode) else errno.ENOTSUP)
 
     def _follow_links(self):
         for _ in range(40):
@@ -57,42 +61,38 @@ class Place:
                 return
             if not stat.S_ISLNK(self.status.st_mode):
                 return
-            folder = os.path.realpath(self.folder)
-            if folder.startswith("/proc/"):  # an open file, no place: its name must not be replaced
+            folder = os.path.dirname(self.target)
+            real = os.path.realpath(folder or ".")
+            if real.startswith("/proc/"):  # an open file, no place: its name must not be replaced
                 self.through, self.status = True, os.stat(self.target)
-                if folder == f"/proc/{os.getpid()}/fd":
+                if real == f"/proc/{os.getpid()}/fd":
                     self.descriptor = int(os.path.basename(self.target))
                 return
-            self.target = os.path.join(os.path.dirname(self.target), os.readlink(self.target))
+            self.target = os.path.join(folder, os.readlink(self.target))
         raise _error(errno.ELOOP)
 
-    @property
-    def folder(self):
-        """The folder of the target."""
-        return os.path.dirname(self.target) or "."
-
     def check(self):
-        """Raises OSError if it may not be written by us. A read-only file is not replaced."""
+        """Raises OSError if we may not write there. A read-only file is not replaced."""
         if self.descriptor is not None:
             if fcntl.fcntl(self.descriptor, fcntl.F_GETFL) & os.O_ACCMODE == os.O_RDONLY:
                 raise _error(errno.EBADF)
             return
-        if self.status and not os.access(self.target, os.W_OK):
-            raise _error(errno.EACCES)
         if not self.through:
             os.stat(self.folder)
-            if not os.access(self.folder, os.W_OK | os.X_OK):
-                raise _error(errno.EACCES)
+        if self.status and not os.access(self.target, os.W_OK) or \
+                not self.through and not os.access(self.folder, os.W_OK | os.X_OK):
+            raise _error(errno.EACCES)
 
     def open_through(self):
         """A new descriptor of what is written through."""
         if self.descriptor is not None:
             return os.dup(self.descriptor)
-        return os.open(self.target, os.O_WRONLY | os.O_APPEND | os.O_NOCTTY | os.O_CLOEXEC)
+        return os.open(self.target, os.O_WRONLY | os.O_APPEND | os.O_NOCTTY)
 
     def create(self, name):
         """A new file with the mode and owner of what is at this place. Returns its descriptor."""
-        descriptor = os.open(name, _NEW, 0o600 if self.status else 0o666)
+        descriptor = os.open(name, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW,
+                             0o600 if self.status else 0o666)
         if self.status:
             mode = self.status.st_mode & 0o777
             try:
@@ -138,13 +138,7 @@ def not_written(path, problem):
 
 
 def check(path, option):
-    """Refuses an output that cannot be written, before the work is done.
-
-    Parameters
-    ----------
-    option : str
-        What gives the path, for the message.
-    """
+    """Refuses an output that cannot be written, before the work is done."""
     if is_standard(path):
         return
     if not path:
@@ -153,9 +147,9 @@ def check(path, option):
         Place(path).check()
     except OSError as problem:
         if problem.errno in (errno.EISDIR, errno.ENOTSUP):
-            raise Refusal(f"{option} = {path}: is not a regular file, nor a device or pipe; - is standard "
-                          "output") from None
-        raise Refusal(f"{option} = {path}: cannot be written: {problem.strerror}") from None
+            raise Refusal(f"{option} = {path}: is not a regular file, nor a device or pipe; - is "
+                          "standard output") from None
+        raise not_written(f"{option} = {path}", problem) from None
 
 
 def lock(descriptor, name):
@@ -170,31 +164,27 @@ def lock(descriptor, name):
     """
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        raise
-    except OSError:
+    except OSError as problem:
+        if isinstance(problem, BlockingIOError):
+            raise
         return  # a file system without locks
     if not os.path.samestat(os.fstat(descriptor), os.lstat(name)):
         raise FileNotFoundError(errno.ESTALE, os.strerror(errno.ESTALE))
 
 
 def rename(name, target):
-    """Give a flushed file its final name, and flush that. A file system that cannot flush a folder is no error."""
+    """Give a flushed file its final name, and flush that, if the file system can flush a folder."""
     os.replace(name, target)
-    try:
-        descriptor = os.open(os.path.dirname(target) or ".", os.O_RDONLY | os.O_CLOEXEC)
-    except OSError:
-        return
-    try:
-        os.fsync(descriptor)
-    except OSError:
-        pass
-    finally:
-        os.close(descriptor)
+    with suppress(OSError):
+        descriptor = os.open(os.path.dirname(target) or ".", os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
 
 
 class NewFile:
-    """An output that is written, and has not got its name yet. What is written through is complete."""
+    """An output that is written, and has not got its name. What is written through is complete."""
 
     def __init__(self, path, content):
         self.path, self.temporary = path, None
@@ -215,11 +205,15 @@ class NewFile:
             os.close(self.descriptor)
 
     def _create(self):
-        """The temporary file with the first free number. Until it is locked, another process may take it for one
-        that a killed process left."""
+        """The temporary file with the first free number. Until it is locked, another process may
+        take it for one that a killed process left."""
         for i in range(1000):
             name = f"{self.place.target}.restitute-{i}.tmp"
-            _remove_stale(name)
+            with suppress(OSError):
+                descriptor = os.open(name, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+                with os.fdopen(descriptor):
+                    lock(descriptor, name)
+                    os.unlink(name)  # a killed process left it
             try:
                 descriptor = self.place.create(name)
             except FileExistsError:
@@ -243,51 +237,33 @@ class NewFile:
     def drop(self):
         """Remove it, if it has no name yet."""
         if self.temporary:
-            unlink(self.temporary)
+            with suppress(FileNotFoundError):
+                os.unlink(self.temporary)
             os.close(self.descriptor)
             self.temporary = None
 
 
-def _remove_stale(name):
-    try:
-        descriptor = os.open(name, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
-    except OSError:
-        return
-    try:
-        lock(descriptor, name)
-        os.unlink(name)
-    except OSError:
-        pass
-    finally:
-        os.close(descriptor)
-
-
-def unlink(name):
-    """Remove a file if it is there."""
-    try:
-        os.unlink(name)
-    except FileNotFoundError:
-        pass
-
-
-def write(*outputs):
+def write(*outputs, between=None):
     """Write outputs that belong together: all of them get their names, or none.
 
     Parameters
     ----------
     outputs : tuples (path, content)
         Content is str or bytes.
+    between : callable, optional
+        Called when all are written and none has its name.
 
     Raises
     ------
     Refusal
         What could not be written. Then nothing is left of any of them.
     """
-    done = []
-    path = None
+    done, path = [], None
     try:
         for path, content in outputs:
             done.append(NewFile(path, content))
+        if between:
+            between()
         for file in done:
             path = file.path
             file.commit()
@@ -315,22 +291,24 @@ class Places:
         """An output, None is standard output, and what is written beside it."""
         self._items.append(_Item(name, path, True))
         if not is_stream(path):
-            self._items += [_Item(f"{name} ({suffix})", beside(path, suffix), True) for suffix in suffixes]
+            self._items += [_Item(f"{name} ({suffix})", beside(path, suffix), True)
+                            for suffix in suffixes]
 
     def check(self):
         """Refuses the first pair that is the same file."""
         for i, output in enumerate(self._items):
             for k, other in enumerate(self._items):
-                if output.written and (k < i or not other.written) and output.is_same(other):
+                if output.written and (k < i or not other.written) and output.same(other):
                     raise _clash(output, other)
 
 
 def _clash(output, other):
     if not other.written:
-        return Refusal(f"{output.name} = {output.path}: is an input of this run, {other.name} {other.path}, and would "
-                       "be overwritten")
+        return Refusal(f"{output.name} = {output.path}: is an input of this run, {other.name} "
+                       f"{other.path}, and would be overwritten")
     if output.descriptor == other.descriptor == 1:
-        return Refusal(f"{output.name} and {other.name} are both standard output: at most one can be")
+        return Refusal(f"{output.name} and {other.name} are both standard output: at most one can "
+                       "be")
     return Refusal(f"{output.name} and {other.name} are the same file, {output.path}")
 
 
@@ -339,24 +317,26 @@ class _Item:
 
     def __init__(self, name, path, written):
         self.name, self.path, self.written = name, "-" if path is None else path, written
-        self.descriptor = self.identity = None
-        try:
+        self.descriptor: Any = None
+        self._identity: Any = None
+        with suppress(OSError):
             if self.path == "-":
-                self.descriptor = 1 if written else 0
-                status = os.fstat(self.descriptor)
+                self.descriptor = int(written)
+                self._identify(os.fstat(self.descriptor))
+                return
+            place = Place(self.path)
+            self.descriptor = place.descriptor
+            if place.status:
+                self._identify(place.status)
             else:
-                place = Place(self.path)
-                self.descriptor, status = place.descriptor, place.status
-            if status is None:
                 folder = os.stat(place.folder)
-                self.identity = (folder.st_dev, folder.st_ino, os.path.basename(place.target))
-            elif stat.S_ISREG(status.st_mode):
-                self.identity = (status.st_dev, status.st_ino)
-        except (OSError, ValueError):
-            pass
+                self._identity = (folder.st_dev, folder.st_ino, os.path.basename(place.target))
 
-    def is_same(self, other):
+    def _identify(self, status):
+        if stat.S_ISREG(status.st_mode):
+            self._identity = (status.st_dev, status.st_ino)
+
+    def same(self, other):
         """Whether both are one file."""
-        if self.descriptor is not None and self.descriptor == other.descriptor:
-            return True
-        return self.identity is not None and self.identity == other.identity
+        return self.descriptor is not None and self.descriptor == other.descriptor or \
+            self._identity is not None and self._identity == other._identity

@@ -16,22 +16,21 @@ class _Axis:
     def __init__(self, text):
         name, equals, values = text.partition("=")
         name = name.replace("-", "_")
-        self.words = name == "material"
         field = next((f for f in problem.FIELDS.values() if name in (f.name, f.key, *f.older)),
                      None)
-        if not equals or not (field or self.words):
+        if not equals or not (field or name == "material"):
             known = [*problem.FIELDS, "material"]
             raise Refusal(f'--grid: "{text[:64]}" must be {_AXIS}, NAME that of an option such as '
                           "speed, angle or psi, or material=FILE:FILE:..."
                           f"{did_you_mean(name, known) if equals else ''}")
-        if self.words:
-            self.column, self.log = "material", False
-            self.cells = [file for file in values.split(":") if file]
-            if not self.cells:
-                raise Refusal("--grid: material must be FILE:FILE:...")
-        else:
+        if field:
             self.column = field.key
             self._read_numbers(field, name, values.split(":"))
+            return
+        self.column, self.log = "material", False
+        self.cells = [file for file in values.split(":") if file]
+        if not self.cells:
+            raise Refusal("--grid: material must be FILE:FILE:...")
 
     def _read_numbers(self, field, name, parts):
         self.log = len(parts) == 4 and parts[3] == "log"

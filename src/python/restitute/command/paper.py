@@ -146,7 +146,7 @@ class _Made:
         cases.known = known
         return cases
 
-    def finish(self, done, interrupted):
+    def finish(self, done):
         """Draw and check what the batch has solved."""
         from types import SimpleNamespace
 
@@ -158,8 +158,6 @@ class _Made:
         self.figure.pairs = SimpleNamespace(ez=ez, ex=ex, contact_time=contact_time,
                                             flags=rows.flags(), status=rows.solved - 1)
         try:
-            if interrupted:
-                raise KeyboardInterrupt
             checks, images = self.figure.checks(), [io.BytesIO() for _ in _DRAWN]
             ax = self.figure.draw()
             for image, ending in zip(images, _DRAWN):

@@ -6,6 +6,7 @@ Both belong to one process at a time. OUT.partial gets the name OUT when all row
 import json
 import os
 import stat
+from contextlib import suppress
 
 from restitute.command import files, provenance
 from restitute.command.options import Refusal, write_all
@@ -22,18 +23,16 @@ class Partial:
     """
 
     def __init__(self, output, resume):
-        try:
-            place = files.Place(output)
-        except OSError as problem:
-            raise files.not_written(output, problem) from None
+        place = files.Place(output)
         self.target, self.path = place.target, place.target + ".partial"
-        self.settings_path, self.descriptor = place.target + ".partial.json", None
-        while self.descriptor is None:
+        self.settings_path = place.target + ".partial.json"
+        self.descriptor: int = -1
+        while self.descriptor < 0:
             self._open(place, resume)
-        self.empty = os.fstat(self.descriptor).st_size == 0
+        self.empty: bool = os.fstat(self.descriptor).st_size == 0
 
     def _open(self, place, resume):
-        """Open and lock it; again if the name has gone to another file meanwhile."""
+        """Open and lock it; in vain if the name has gone to another file meanwhile."""
         found = False
         try:
             try:
@@ -46,18 +45,17 @@ class Partial:
         try:
             if not stat.S_ISREG(os.fstat(descriptor).st_mode):
                 raise Refusal(f"{self.path} is not a regular file: remove it")
-            try:
-                files.lock(descriptor, self.path)
-            except FileNotFoundError:
-                return
-            except BlockingIOError:
-                raise Refusal(f"{self.path} is being written by another process") from None
+            files.lock(descriptor, self.path)
             if found and not resume:
                 raise Refusal(f"{self.path} is left from an interrupted run: continue it with "
                               "--resume, or remove it")
-            self.descriptor, descriptor = descriptor, None
+            self.descriptor = descriptor
+        except FileNotFoundError:
+            pass
+        except BlockingIOError:
+            raise Refusal(f"{self.path} is being written by another process") from None
         finally:
-            if descriptor is not None:
+            if self.descriptor < 0:
                 os.close(descriptor)
 
     def begin(self, settings, header):
@@ -84,12 +82,16 @@ class Partial:
         os.lseek(self.descriptor, length, os.SEEK_SET)
         self.empty = length == 0
 
+    def rows(self):
+        """How many rows are complete."""
+        return self._scan()[0] - 1
+
     def _scan(self):
-        """How many lines are complete, and where the last of them ends. A line end within quotes
-        ends none."""
+        """Complete lines, and where the last of them ends; not within quotes."""
         with open(self.path, "rb") as file:
-            if b'"' not in (content := file.read()):
-                return content.count(b"\n"), content.rfind(b"\n") + 1
+            content = file.read()
+        if b'"' not in content:
+            return content.count(b"\n"), content.rfind(b"\n") + 1
         lines = length = at = quotes = 0
         for line in content.split(b"\n")[:-1]:
             at += len(line) + 1
@@ -107,7 +109,7 @@ class Partial:
 
     def commit(self, rows):
         """Give it the final name, if it has as many rows and a header."""
-        found, _ = self._scan()
+        found = self._scan()[0]
         if found != rows + 1:
             raise Refusal(f"{self.path} has {found} lines, not {rows + 1}: something else wrote to "
                           "it")
@@ -116,17 +118,19 @@ class Partial:
             files.rename(self.path, self.target)
         except OSError as problem:
             raise files.not_written(self.target, problem) from None
-        files.unlink(self.settings_path)
+        with suppress(FileNotFoundError):
+            os.unlink(self.settings_path)
         self.leave()
 
     def remove(self):
         """Leave nothing of it."""
-        files.unlink(self.settings_path)
-        files.unlink(self.path)
+        for name in (self.settings_path, self.path):
+            with suppress(FileNotFoundError):
+                os.unlink(name)
         self.leave()
 
     def leave(self):
         """Close it, which ends the lock."""
-        if self.descriptor is not None:
+        if self.descriptor >= 0:
             os.close(self.descriptor)
-            self.descriptor = None
+            self.descriptor = -1

@@ -255,7 +255,7 @@ def impacts(keywords, place):
 
 
 _MODULI = ("modulus1", "youngs_modulus", "shore_a")
-_EXCLUSIVE = (("density", "mass"), ("density2", "mass2"), *combinations(_MODULI, 2))
+EXCLUSIVE = (("density", "mass"), ("density2", "mass2"), *combinations(_MODULI, 2))
 
 
 def keywords(values, place):
@@ -274,7 +274,7 @@ def keywords(values, place):
         What is missing, or does not go together.
     """
     given = dict(values)
-    for one, other in _EXCLUSIVE:
+    for one, other in EXCLUSIVE:
         if one in given and other in given:
             raise Refusal(f"{place(one)} and {place(other)} are both given: one determines the "
                           "other")

@@ -1,44 +1,44 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The record of how a result was made, OUT.meta.json beside OUT.
 
-    settings = provenance.settings(arguments, {"input": provenance.of_file(path)})
+    settings = provenance.settings(arguments, {"input": None})
     record = provenance.record(arguments, settings, {"ez": "1"}, rows=10)
     provenance.write(path, content, record)
 """
 import hashlib
 import json
+import math
 import os
 
 from restitute.command import files, problem
+from restitute.command.options import Refusal
+from restitute.errors import Error
 
 
 def of_number(value):
     """A number for JSON, which has neither nan (null here) nor inf (a text here)."""
-    if value != value:
-        return None
-    return f"{value:g}" if value in (float("inf"), -float("inf")) else value
+    if not isinstance(value, float) or math.isfinite(value):
+        return value
+    return None if math.isnan(value) else f"{value:g}"
 
 
 def text(document):
     """A JSON document as it is written."""
-    return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False,
-                      default=lambda scalar: scalar.item()).encode("utf-8", "backslashreplace") + b"\n"
+    lines = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False,
+                       default=lambda scalar: scalar.item())
+    return lines.encode("utf-8", "backslashreplace") + b"\n"
 
 
 def fingerprint(*contents):
     """SHA-256 of some bytes; for one file what `sha256sum FILE` prints."""
-    total = hashlib.sha256()
-    for content in contents:
-        total.update(content)
-    return f"sha256:{total.hexdigest()}"
+    return f"sha256:{hashlib.sha256(b''.join(contents)).hexdigest()}"
 
 
 def series_of(path):
     """The file with the Prony terms that a material file names; None if there is none."""
     try:
         with open(path, "rb") as file:
-            name = json.load(file)["prony_csv"]
-        return os.path.join(os.path.dirname(path), name)
+            return os.path.join(os.path.dirname(path), json.load(file)["prony_csv"])
     except (OSError, ValueError, TypeError, KeyError):
         return None
 
@@ -51,22 +51,16 @@ def read_materials(places, values):
             places.read("prony_csv", series_of(values[name]))
 
 
-def of_file(path, **members):
-    """An input file with its fingerprint."""
-    with open(path, "rb") as file:
-        return {"file": path, **members, "fingerprint": fingerprint(file.read())}
-
-
 def of_material(name):
     """A material, by file or by name: what it says of itself, and a fingerprint of its files."""
+    contents = []
     try:
         material = problem.material_of(name)
-        contents = []
-        for path in (name, series_of(name)):
-            if path and os.path.isfile(path):
+        for path in (name, series_of(name)) if name.endswith((".json", ".csv")) else ():
+            if path:
                 with open(path, "rb") as file:
                     contents.append(file.read())
-    except Exception as refused:  # a row that names it fails with these words
+    except (Refusal, Error, OSError) as refused:  # a row that names it fails with these words
         return {"file": name, "refused": str(refused)}
     about = {"name": material.name, "source": material.source, "model": material.model,
              "density_kg_m3": of_number(material.density)}
@@ -86,13 +80,13 @@ def settings(arguments, inputs, **defaults):
     import restitute
 
     given = problem.values_of(arguments)
-    values = {problem.FIELDS[name].key if name in problem.FIELDS else name: of_number(value)
-              if isinstance(value, float) else value for name, value in given.items()}
     usual = {"method": "euler", "tolerance": 1e-3, "elements": "chosen", "time_step": "chosen",
              "max_work": 10.0, "time_limit": "default"}
     solution = problem.solution(arguments, **{**usual, **defaults})
-    record = {"version": restitute.version(), **{name: of_number(value) if isinstance(value, float) else value
-                                                 for name, value in solution.items()}, "values": values}
+    record = {"version": restitute.version(),
+              **{name: of_number(value) for name, value in solution.items()},
+              "values": {problem.FIELDS[name].key if name in problem.FIELDS else name:
+                         of_number(value) for name, value in given.items()}}
     for name in ("material", "partner"):
         word = given.get(name)
         record[name] = of_material(word) if word not in (None, "rigid", "same") else None
@@ -100,16 +94,18 @@ def settings(arguments, inputs, **defaults):
 
 
 def record(arguments, settings, units, **members):
-    """The record of a result: program, version, command line, settings, units of the columns, and more members."""
+    """The record of a result: program, version, command line, settings, units, and more."""
     import restitute
 
-    return {"program": "restitute", "version": restitute.version(), "command": arguments.command_line,
-            "settings": settings, "units": units, **members}
+    return {"program": "restitute", "version": restitute.version(),
+            "command": arguments.command_line, "settings": settings, "units": units, **members}
 
 
 def write(path, content, record, *more):
-    """Write a result, and its record beside it unless that is a stream; `more` are outputs (path, content) that belong
-    to it. All are written, or none."""
+    """Write a result, and its record beside it unless that is a stream.
+
+    `more` are outputs (path, content) that belong to it. All are written, or none.
+    """
     if not files.is_stream(path):
         more = ((files.beside(path, ".meta.json"), text(record)), *more)
     files.write(*more, (path, content))

@@ -47,7 +47,8 @@ class Rows:
 
     def remarks(self):
         """How many rows have which remark, and how many pass which limit of the model."""
-        remarks, limits = Counter(), Counter()
+        remarks: Counter = Counter()
+        limits: Counter = Counter()
         for status, count in Counter(self.status[self.solved].tolist()).items():
             remark, names = _split(status)
             limits.update(dict.fromkeys(names, count))
@@ -98,8 +99,8 @@ class Rows:
             if name != must:
                 raise Refusal(f'{path}: column {i + 1} is "{name[:64]}": must be {must}')
         done, first = len(table.lines), len(self.cases.names)
-        problems = [self._foreign(table.cells[:first], done), *self._take(table.cells[first:], done)]
-        row, why = min(problems, key=itemgetter(0))
+        row, why = min([self._foreign(table.cells[:first], done),
+                        *self._take(table.cells[first:], done)], key=itemgetter(0))
         if row < done:
             raise Refusal(f"{path} line {table.lines[row]} (row {row + 1}): {why}")
         return done
@@ -126,7 +127,7 @@ class Rows:
             known = dict(zip(texts, numbers(texts, options.number)[0].tolist()))
             value = np.array([known[cell] for cell in columns[k]])
             good = np.where(solved, (value >= low) & (value <= high),
-                            [cell == "" for cell in columns[k]])
+                            np.array([cell == "" for cell in columns[k]], bool))
             for i in np.flatnonzero(~good)[:1]:
                 must = words if solved[i] else "must be empty, since method is empty"
                 yield int(i), f'{name} = "{columns[k][i][:64]}": {must}'
