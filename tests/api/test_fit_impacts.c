@@ -595,7 +595,7 @@ static void the_handle(void **state)
 }
 
 /* Eight residuals that fall from +0.023 to -0.028, of a solid that is not the data's, and a
- * Kelvin-Voigt solid with noise: the chance of 1 % is kept, so that 3 of 20 have one of 0.1 %. */
+ * Kelvin-Voigt solid with noise: the chance of 2 % is kept, so that 3 of 20 have one of 0.7 %. */
 static void residuals_in_order_are_a_misfit(void **state)
 {
     enum { FEW = 8, DRAWS = 20 };

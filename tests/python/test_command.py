@@ -161,6 +161,8 @@ def test_the_scene_is_said_in_words(run):
 
 def test_messages_have_the_name_that_the_user_gave(run):
     assert "--velocity = 0: must be" in refused(run, "pair", "--velocity", "0")
+    err = refused(run, "pair", "--material", "steel", *BALL, "--density", "1", "--mass1", "1")
+    assert "--density and --mass1 are both given" in err
     err = refused(run, "pair", "--material", "steel", *BALL, "--mass2", "1")
     assert err == "restitute: --mass2 needs a partner sphere, --radius2\n"
 
@@ -207,6 +209,22 @@ def test_materials_are_listed_and_shown(run):
     shown = run("materials", "show", "polyisobutylene")[1]
     assert "920 kg/m^3" in shown and shown.count("\n") == 39  # 30 terms and what stands above them
     assert "did you mean steel?" in refused(run, "materials", "show", "stel")
+
+
+@pytest.mark.parametrize(("words", "same"), [
+    (["steel"], restitute.material("steel")),
+    (["polyisobutylene", "--temperature", "40"], restitute.material("polyisobutylene", 40)),
+    (["damper.json"], restitute.Material.kelvin_voigt(1e6, 50.0, density=1100.0))],
+    ids=["elastic", "prony", "kelvin_voigt"])
+def test_a_material_that_is_shown_as_json_is_a_material_file(run, tmp_path, monkeypatch, words,
+                                                             same):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "damper.json").write_text(
+        '{"name": "damper", "poisson_ratio": 0.5, "model": "kelvin_voigt", "modulus1_pa": 1e6, '
+        '"viscosity_pa_s": 50, "density_kg_m3": 1100}')
+    file = tmp_path / "shown.json"
+    file.write_text(run("materials", "show", *words, "--format", "json")[1])
+    assert restitute.Material.read(file) == same
 
 
 @pytest.mark.parametrize("name", ["pair", "history", "materials"])

@@ -13,6 +13,7 @@ import pytest
 
 import restitute
 from restitute import _library
+from restitute.command import main
 
 pytestmark = pytest.mark.component("table")
 BALL = dict(radius=0.001, density=1200, friction=0.3)
@@ -190,3 +191,20 @@ def test_tables_of_all_pairs_are_those_built_one_by_one_here_or_elsewhere(rubber
             assert np.array_equal(one.data["ex"], alone.data["ex"])
     with pytest.raises(restitute.DomainError, match="friction"):
         restitute.build_tables([rubber, glass], **{**build, "friction": -1})
+
+
+@pytest.mark.component("table_files")
+def test_the_command_echoes_the_contact_and_names_bad_cells(tmp_path, monkeypatch, capfd):
+    monkeypatch.chdir(tmp_path)
+    build = ["table", "build", "--shore-a", "60", "--radius", "0.005", "--density", "1100",
+             "--friction", "1/2", "--speed", "0.01:0.1", "--tolerance", "1e-2", "--output", "t.h5"]
+    assert main(build) == 0
+    said = capfd.readouterr()
+    assert said.out.startswith("sphere, R = 5 mm, on a wall") and said.err == ""
+    assert "the other rigid: friction 0.5\nt.h5: errors" in said.out
+    (tmp_path / "cases.csv").write_text('name,normal_speed_m_s\na,0.05\nb,5mm\nc,"0,5"\nd,-1\n')
+    assert main(["table", "query", "t.h5", "--input", "cases.csv"]) == 1
+    rows = capfd.readouterr().out.splitlines()
+    assert rows[1].startswith("a,0.05,0.") and rows[1].endswith(",")
+    assert 'is not a number (with the unit ""mm""' in rows[2] and "decimal comma" in rows[3]
+    assert 'normal_speed_m_s = ""-1"" is out of its range, [0, 1e+100]' in rows[4]

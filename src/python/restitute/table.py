@@ -316,8 +316,9 @@ class Table:
         if beyond:
             _library.warn(f"{beyond} of {count} impacts are outside the table's range, whose ends "
                           "are taken", errors.ModelLimitWarning)
-        return (*after((first, second), bodies, shape, []),
-                TablePairs(ez.reshape(shape)[()], ex.reshape(shape)[()], lambda: None))
+        first, second = after((first, second), bodies, shape, [])
+        return first, second, TablePairs(ez.reshape(shape)[()], ex.reshape(shape)[()],
+                                         lambda: None)
 
     def beyond(self, normal_speed: Any, contact: TableContact | None = None) -> Any:
         """Whether normal speeds (m/s) are outside the range, whose end is then taken."""
@@ -385,7 +386,7 @@ def _struct(contact):
 def _speeds(normal, sliding):
     """Both as contiguous arrays of one dimension, and their broadcast shape."""
     both = np.broadcast_arrays(np.asarray(normal, float), np.asarray(sliding, float))
-    return (*(np.array(one, float).ravel() for one in both), both[0].shape)
+    return (*(np.ascontiguousarray(one).ravel() for one in both), both[0].shape)
 
 
 def _scene(material, contact):

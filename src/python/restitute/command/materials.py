@@ -7,6 +7,9 @@ _EPILOG = """Examples:
   restitute materials
   restitute materials show polyisobutylene
   restitute pair --material polyisobutylene --radius 0.005 --friction 0.3 --speed 0.1
+At another temperature, by way of a material file:
+  restitute materials show polyisobutylene --temperature 40 --format json >pib40.json
+  restitute pair --material pib40.json --radius 0.005 --friction 0.3 --speed 0.1
 
 The moduli are shear moduli: at once, and after infinite time.
 """
@@ -21,6 +24,8 @@ def add(subparsers):
     parser.add_argument("material", nargs="?", metavar="NAME|FILE", help="of show")
     options.add(parser, "temperature", "CELSIUS", "of show: with the relaxation times of this "
                 "temperature, where their shift is known", options.bounded(-273.15, 1e4))
+    options.add(parser, "format", "text|json", "of show: json is a material file; default text",
+                options.one_of("text", "json"))
 
 
 def run(arguments):
@@ -32,7 +37,10 @@ def run(arguments):
         if name is None:
             raise Refusal("materials show: the name of a material is missing; see --help")
         word = problem.read_material(name, "material")
-        emit(_page(restitute.material(word, temperature=arguments.temperature)))
+        material = restitute.material(word, temperature=arguments.temperature)
+        if arguments.temperature is not None:
+            material.source += f"; relaxation times at {arguments.temperature:g} C"
+        emit(_file(material) if arguments.format == "json" else _page(material))
         return 0
     if name is not None:
         raise Refusal(f'unexpected argument "{name[:100]}"; see --help')
@@ -50,6 +58,28 @@ def _moduli(series):
     """Instantaneous and equilibrium modulus."""
     stiff = series.equilibrium_modulus + series.modulus.sum()
     return float("inf") if series.parallel_viscosity > 0 else stiff, series.equilibrium_modulus
+
+
+def _file(material):
+    """A material file."""
+    import json
+
+    series = material.series
+    content = {"name": material.name or material.model, "source": material.source or "unknown",
+               "poisson_ratio": material.poisson_ratio, "model": "prony"}
+    if material.density > 0:
+        content["density_kg_m3"] = material.density
+    if len(series.modulus):
+        terms = zip(series.relaxation_time.tolist(), series.modulus.tolist())
+        content.update(equilibrium_modulus_pa=series.equilibrium_modulus,
+                       parallel_viscosity_pa_s=series.parallel_viscosity,
+                       terms=[{"tau_s": tau, "modulus_pa": modulus} for tau, modulus in terms])
+    elif series.parallel_viscosity > 0:
+        content.update(model="kelvin_voigt", modulus1_pa=series.equilibrium_modulus,
+                       viscosity_pa_s=series.parallel_viscosity)
+    else:
+        content.update(model="elastic", modulus_pa=series.equilibrium_modulus)
+    return json.dumps(content, indent=2, ensure_ascii=False) + "\n"
 
 
 def _page(material):

@@ -342,7 +342,7 @@ def _solid(given, place):
         raise _missing("modulus2", place)
     made = solids(modulus1, given.get("modulus2", INFINITY), given.get("viscosity", 0.0), ratio)
     if made.ndim == 0:
-        made[()].name = "given moduli"  # for the scene in words
+        made.item().name = "given moduli"  # for the scene in words
     return made
 
 

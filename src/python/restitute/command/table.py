@@ -105,7 +105,7 @@ def _build(arguments):
         raise Refusal("no table is described: give --material, or moduli, and a contact; see "
                       "--help")
     keywords = problem.keywords({**values, "speed": 1.0}, place)  # the library does not use it
-    scene = re.sub(r" speed .* degrees,", "", problem.impacts(keywords, place).describe())
+    scene = re.sub(r": .* degrees, ", ": ", problem.impacts(keywords, place).describe())
     _check_places(arguments, values)
     settings = {name: getattr(arguments, name) for name in
                 ("tolerance", "max_impacts", "time_limit") if name in arguments.given}
