@@ -43,6 +43,11 @@ def svg(ax):
     return image.getvalue()
 
 
+def contour_points(ax):
+    """Points on all contour lines; from matplotlib 3.8 on they are in one collection."""
+    return np.concatenate([path.vertices for lines in ax.collections for path in lines.get_paths()])
+
+
 def crosses(ax):
     return [line.get_xydata() for line in ax.get_lines() if line.get_marker() == "x"]
 
@@ -84,12 +89,17 @@ def test_contours_run_where_the_values_are_whatever_the_order_of_rows():
     x, y = (axis.ravel() for axis in np.meshgrid(np.arange(1, 6.0), np.arange(1, 6.0)))
     order = np.random.default_rng(1).permutation(25)
     rows = SimpleNamespace(ex=(x + 10 * y)[order])
-    ax = plot.map(x[order], y[order], rows, log=(False, False))
-    bands = ax.collections if len(ax.collections) > 1 else ax.collections[0].get_paths()
-    points = np.concatenate([path.vertices for band in bands for path in
-                             (band.get_paths() if hasattr(band, "get_paths") else [band])])
+    points = contour_points(plot.map(x[order], y[order], rows, log=(False, False)))
     values = points[:, 0] + 10 * points[:, 1]
     assert np.allclose(values, 5 * np.round(values / 5)) and len(np.unique(values.round())) > 5
+
+
+def test_a_node_that_is_missing_or_failed_has_no_contours():
+    x, y = (axis.ravel() for axis in np.meshgrid(np.arange(4.0), np.arange(4.0)))
+    rows = SimpleNamespace(ex=np.where(x + y == 6, np.nan, 5 + x))
+    ax = plot.map(x[1:], y[1:], SimpleNamespace(ex=rows.ex[1:]), log=(False, False))
+    points = contour_points(ax)
+    assert np.all(points.sum(axis=1) >= 1) and np.all(points.sum(axis=1) <= 5)
 
 
 @pytest.mark.parametrize(("low", "high", "levels"), [
