@@ -74,10 +74,10 @@ def _check_options(arguments):
                           "or .pdf")
         files.check(arguments.figure, "--figure")
         options.need("matplotlib", "--figure")
-    arguments.format = arguments.format or "csv"
-    if (arguments.output or "").lower().endswith((".h5", ".hdf5")):
+    if arguments.format is None and (arguments.output or "").lower().endswith((".h5", ".hdf5")):
         options.need("h5py", f"--output = {arguments.output}")
         arguments.format = "hdf5"
+    arguments.format = arguments.format or "csv"
 
 
 class _Batch:
