@@ -81,7 +81,7 @@ def main(curves, data, figures):
     beside(curves / "fem.csv", data / "fem_oblique.csv", 5.79, -1,
            "finite elements (Chung and Ooi)", figures / "fem.svg", xlim=(0, 19), ylim=(0, 6),
            xticks=range(0, 19, 2),
-           xlabel=r"$V_t/(\mu V_n)$", ylabel=r"$-R w'/(\mu V_n)$")  # psi_c: (4 chi - 1)/0.824
+           xlabel="Vₜ / (μ Vₙ)", ylabel="−R w′ / (μ Vₙ)")  # psi_c: (4 chi - 1)/0.824
     sync_panels(curves, figures / "sync-panels.svg")
 
 

@@ -8,7 +8,7 @@ import matplotlib
 matplotlib.use("agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-LABELS = ("constant $e_z$ = 0.8", "Kelvin-Voigt, no friction", "Kelvin-Voigt, friction 0.3",
+LABELS = ("constant restitution 0.8", "Kelvin-Voigt, no friction", "Kelvin-Voigt, friction 0.3",
           "standard solid, no friction", "polyisobutylene, friction 0.3")
 COLOURS = ("#888888", "#1f6f8b", "#c4451c", "#5b8c2a", "#7a4fa3")
 
@@ -33,8 +33,8 @@ def main(table, figure):
         left.loglog(gas["time"], gas["T_theory"], ":", color="black", linewidth=1)
         right.semilogx(gas["time"], gas["exponent"], color=colour, linewidth=2.5, label=label)
     left.plot([], [], ":", color="black", label="theory, Maxwell's velocities")
-    left.set(ylabel="temperature $T/T_0$")
-    right.set(ylabel=r"$p$, where $T$ falls as $t^{-p}$", ylim=(0, 2.6), xlim=(10, None),
+    left.set(ylabel="temperature T / T₀")
+    right.set(ylabel="p, where T falls as 1 / time to the power p", ylim=(0, 2.6), xlim=(10, None),
               yticks=(0, 0.5, 1, 1.5, 5 / 3, 2, 2.5),
               yticklabels=("0", "0.5", "1", "1.5", "5/3", "2", "2.5"))
     for axes, place in ((left, "lower left"), (right, "lower right")):

@@ -1,5 +1,5 @@
 /* The error that a table promises, at random places, against impacts solved by themselves. With
- * more places and solids: the target table-campaign (benchmark/table_campaign.c).
+ * more places and solids: the target table-campaign (benchmark/table_campaign.py).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/table.h"
 

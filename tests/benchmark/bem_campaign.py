@@ -5,6 +5,7 @@ Fills the table of the page records/bem.md in DOCS and draws figures/bem.svg the
 128 x 128 cells is 128; 256 gets a fifth of the impacts. Needs the package restitute.
 """
 import sys
+import textwrap
 import warnings
 from pathlib import Path
 
@@ -85,7 +86,7 @@ def main(docs, count, grids):
         sync = solve(*some, method="sync", tolerance=1e-6)
         bem = solve(*some, method="bem", elements=int((grid / 2 - 1.5) / 1.03))
         lines += rows_of(grid, kinds[:n], sync, bem)
-        remarks.append(remark(grid, sync, bem))
+        remarks += textwrap.wrap(remark(grid, sync, bem), 100, subsequent_indent="  ")
         if grid == 128:
             figures.differences(psi, kinds, bem.ez - sync.ez, bem.ex - sync.ex, KINDS, LIMIT,
                                 docs / "figures/bem.svg")

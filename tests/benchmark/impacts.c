@@ -35,7 +35,8 @@ static int usage(const char *what)
 }
 
 /* A tenth of the tolerance takes at most a hundred times as long with a method of first order. */
-static void sweep_tolerances(const struct plan *plan, const struct bench_scene *scene, const struct bench_method *method)
+static void sweep_tolerances(const struct plan *plan, const struct bench_scene *scene,
+                             const struct bench_method *method)
 {
     double before = 0, last = 0;
     for (int i = 0; i < plan->n_tolerances; i++) {
@@ -117,7 +118,8 @@ int main(int count, char **words)
     if (!scenes) return usage(words[1]);
     for (char *name = strtok(words[3], ","); name && plan.n_methods < most; name = strtok(NULL, ","))
         if (!(plan.methods[plan.n_methods++] = bench_method(name))) return usage(name);
-    for (char *word = map_kind ? NULL : strtok(words[4], ","); word && plan.n_tolerances < most; word = strtok(NULL, ","))
+    char *word = map_kind ? NULL : strtok(words[4], ",");
+    for (; word && plan.n_tolerances < most; word = strtok(NULL, ","))
         plan.tolerances[plan.n_tolerances++] = atof(word);
     if (kind == 'r' && !plan.methods[0]->handle) return usage(plan.methods[0]->name);
     plan.budget = kind == 'r' ? 0 : atof(words[5 - map_kind]);

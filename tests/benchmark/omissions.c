@@ -31,15 +31,21 @@ static const struct pair {
     struct variant full, lean;
     int chosen;
 } pairs[] = {
-    {"dashpot states", {"a dashpot that changes the result by 1e-5", WEAK_DASHPOT, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 0},
-    {"tangential states: the normal problem only", {"psi = 0.7", STANDARD, 0.7, 0, 0}, {"frictionless", STANDARD, INFINITY, 0, 0}, 0},
-    {"tangential elements in full slip", {"psi = 0.9", STANDARD, 0.9, 0, 0}, {"psi = 5, above psi_c", STANDARD, 5, 0, 0}, 0},
+    {"dashpot states", {"a dashpot that changes the result by 1e-5", WEAK_DASHPOT, 0.7, 0, 0},
+     {"elastic", ELASTIC, 0.7, 0, 0}, 0},
+    {"tangential states: the normal problem only", {"psi = 0.7", STANDARD, 0.7, 0, 0},
+     {"frictionless", STANDARD, INFINITY, 0, 0}, 0},
+    {"tangential elements in full slip", {"psi = 0.9", STANDARD, 0.9, 0, 0},
+     {"psi = 5, above psi_c", STANDARD, 5, 0, 0}, 0},
     {"tangential elements in gross slip", {"psi = 0.9", STANDARD, 0.9, 0, 0}, {"psi = 1.6", STANDARD, 1.6, 0, 0}, 0},
     {"friction limit", {"psi = 1e-9", STANDARD, 1e-9, 0, 0}, {"psi = 0", STANDARD, 0, 0, 0}, 0},
-    {"merged Prony terms", {"30 terms in two decades, none merged", FELT_TERMS, 0.7, 0, 0}, {"30 terms over 18 decades, merged at 1e-3", SPREAD_TERMS, 0.7, 0, 0}, 0},
+    {"merged Prony terms", {"30 terms in two decades, none merged", FELT_TERMS, 0.7, 0, 0},
+     {"30 terms over 18 decades, merged at 1e-3", SPREAD_TERMS, 0.7, 0, 0}, 0},
     {"energy ledger", {"asked for", STANDARD, 0.7, 1, 0}, {"not asked for", STANDARD, 0.7, 0, 0}, 0},
-    {"normal motion of a standard solid", {"a single call", STANDARD, 0.7, 0, 0}, {"a plan that has it", STANDARD, 0.7, 0, 1}, 0},
-    {"normal motion of 30 terms", {"a single call", FELT_TERMS, 0.7, 0, 0}, {"a plan that has it", FELT_TERMS, 0.7, 0, 1}, 0},
+    {"normal motion of a standard solid", {"a single call", STANDARD, 0.7, 0, 0},
+     {"a plan that has it", STANDARD, 0.7, 0, 1}, 0},
+    {"normal motion of 30 terms", {"a single call", FELT_TERMS, 0.7, 0, 0},
+     {"a plan that has it", FELT_TERMS, 0.7, 0, 1}, 0},
     {"default impact", {"Kelvin-Voigt", VOIGT, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 1},
     {"default impact", {"Maxwell", MAXWELL, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 1},
     {"default impact", {"standard solid", STANDARD, 0.7, 0, 0}, {"elastic", ELASTIC, 0.7, 0, 0}, 1},
@@ -80,15 +86,13 @@ static int make_solid(enum solid kind, restitute_material **material, restitute_
     }
 }
 
-/* A variant ready to be timed. Without friction there is a scene in SI units, whose numbers are
- * then those of the impact. */
+/* A variant ready to be timed. */
 struct ready {
     restitute_material *solid;
     restitute_solver *solver;
     restitute_plan *plan; /* NULL: none */
     restitute_impact impact;
-    restitute_scene scene;
-    int frictionless, ledger;
+    int ledger;
     restitute_result result;
 };
 
@@ -98,19 +102,7 @@ static int solve(struct ready *r, restitute_error *error)
     restitute_ledger_init(&ledger);
     restitute_ledger *kept = r->ledger ? &ledger : NULL;
     if (r->plan) return restitute_plan_solve(r->plan, r->impact.psi, &r->result, kept, NULL, error);
-    return r->frictionless ? restitute_solve_scene(r->solver, &r->scene, &r->result, kept, NULL, error)
-                           : restitute_solve(r->solver, &r->impact, &r->result, kept, NULL, error);
-}
-
-/* A sphere for which a_el = d0 = T = 1 with G_r = 1: R = v = 1 and m from (24), nu = 0.5. */
-static void make_scene(const restitute_material *solid, restitute_scene *scene)
-{
-    restitute_scene_init(scene);
-    scene->material = solid;
-    scene->radius1 = 1;
-    scene->mass1 = 32.0 / 15.0 / 0.5;
-    scene->normal_speed = 1;
-    scene->tangential_speed = 1;
+    return restitute_solve(r->solver, &r->impact, &r->result, kept, NULL, error);
 }
 
 static int prepare(const struct bench_method *method, const struct variant *variant, int chosen, struct ready *r,
@@ -124,14 +116,13 @@ static int prepare(const struct bench_method *method, const struct variant *vari
         options.elements = elements;
         if (method->takes_time_step) options.time_step = step;
     }
-    *r = (struct ready){.frictionless = isinf(variant->psi), .ledger = variant->ledger};
+    *r = (struct ready){.ledger = variant->ledger};
     restitute_result_init(&r->result);
     int status = make_solid(variant->solid, &r->solid, error);
     if (status) return status;
     restitute_impact_init(&r->impact);
     r->impact.psi = variant->psi;
     r->impact.material = r->solid;
-    make_scene(r->solid, &r->scene);
     status = restitute_solver_create(&options, &r->solver, error);
     if (!status && variant->planned) status = restitute_plan_create(&r->impact, &options, &r->plan, error);
     return status ? status : solve(r, error);

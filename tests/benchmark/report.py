@@ -273,6 +273,7 @@ def main():
     parser.add_argument("--kept", action="store_true", help="take the CSV that is there")
     words = parser.parse_args()
     report = Report(words.programs, words.directory, words.docs, words.quick, words.kept)
+    np.seterr(divide="ignore", invalid="ignore")  # what is not reached has no ratio
     for part in words.parts:
         PARTS[part](report, ["euler", "sync", *(["cvode"] if words.cvode else [])])
 

@@ -103,6 +103,8 @@ def runs_of(path, scenes):
     truth = np.array([(s.ez, s.ex, s.error) for s in scenes])
     for place in np.flatnonzero(np.isnan(truth[:, 0])):
         of_sync = np.flatnonzero((runs.place == place) & (runs.method == "sync") & runs.solved)
+        if not of_sync.size:
+            raise SystemExit(f"{path}: no run of sync is a reference for {scenes[place].name}")
         fine = of_sync[np.argmin(runs.tolerance[of_sync])]
         truth[place] = runs.ez[fine], runs.ex[fine], runs.estimate[fine]
         runs.method[fine] = "reference"

@@ -43,6 +43,11 @@ def svg(ax):
     return image.getvalue()
 
 
+def contour_points(ax):
+    """Points on all contour lines; from matplotlib 3.8 on they are in one collection."""
+    return np.concatenate([path.vertices for lines in ax.collections for path in lines.get_paths()])
+
+
 def crosses(ax):
     return [line.get_xydata() for line in ax.get_lines() if line.get_marker() == "x"]
 
@@ -84,12 +89,17 @@ def test_contours_run_where_the_values_are_whatever_the_order_of_rows():
     x, y = (axis.ravel() for axis in np.meshgrid(np.arange(1, 6.0), np.arange(1, 6.0)))
     order = np.random.default_rng(1).permutation(25)
     rows = SimpleNamespace(ex=(x + 10 * y)[order])
-    ax = plot.map(x[order], y[order], rows, log=(False, False))
-    bands = ax.collections if len(ax.collections) > 1 else ax.collections[0].get_paths()
-    points = np.concatenate([path.vertices for band in bands for path in
-                             (band.get_paths() if hasattr(band, "get_paths") else [band])])
+    points = contour_points(plot.map(x[order], y[order], rows, log=(False, False)))
     values = points[:, 0] + 10 * points[:, 1]
     assert np.allclose(values, 5 * np.round(values / 5)) and len(np.unique(values.round())) > 5
+
+
+def test_a_node_that_is_missing_or_failed_has_no_contours():
+    x, y = (axis.ravel() for axis in np.meshgrid(np.arange(4.0), np.arange(4.0)))
+    rows = SimpleNamespace(ex=np.where(x + y == 6, np.nan, 5 + x))
+    ax = plot.map(x[1:], y[1:], SimpleNamespace(ex=rows.ex[1:]), log=(False, False))
+    points = contour_points(ax)
+    assert np.all(points.sum(axis=1) >= 1) and np.all(points.sum(axis=1) <= 5)
 
 
 @pytest.mark.parametrize(("low", "high", "levels"), [
@@ -148,13 +158,13 @@ def test_the_column_with_more_values_is_the_axis():
 
 def test_svg_has_text_as_text_no_date_and_the_same_bytes_every_time(pairs):
     def drawn():
-        ax = plot.sheet(title="A $5 <b> & \x01 title", note="friction 0.3 " * 30, origin="made so")
+        ax = plot.sheet(title="A $5 <b> & $6 \x01 title", note="friction 0.3 " * 30, origin="so")
         return svg(plot.map(SPEED, ANGLE, pairs, ax=ax))
 
     image = drawn()
     assert image == drawn()
     xml.dom.minidom.parseString(image)
-    assert b"A $5 &lt;b&gt; &amp;   title</text>" in image
+    assert b"A $5 &lt;b&gt; &amp; $6   title</text>" in image
     assert b"speed (m/s)</text>" in image
     assert b"dc:date" not in image
 
@@ -201,8 +211,9 @@ def test_a_history_has_forces_radii_and_velocities_and_tells_limits():
     forces, radii, velocities = plot.history(history)
     assert [ax.get_title() for ax in (forces, radii, velocities)] == [
         "Forces", "Contact and stick radius", "Velocities"]
-    factor = {"N": 1, "mN": 1e-3, "kN": 1e3}[forces.get_ylabel()[7:-1]]
-    assert np.allclose(forces.get_lines()[1].get_ydata() * factor, history.tangential_force)
+    assert forces.get_ylabel() == "force (N)"
+    assert np.allclose(forces.get_lines()[1].get_ydata(), history.tangential_force)
+    assert np.allclose(radii.get_lines()[0].get_ydata() / 1000, history.contact_radius)
     assert radii.get_ylabel() == "radius (mm)" and legend(radii) == ["contact", "stick"]
     assert "a / R too large" in forces.texts[0].get_text()
     numbers = restitute.history(psi=2, delta1=1, gamma=1)
@@ -219,7 +230,9 @@ def test_a_table_is_drawn_over_its_range_with_its_limits_shaded():
     speed, ez = first.get_lines()[0].get_data()
     assert (speed[0], speed[-1]) == pytest.approx((0.01, 10))
     assert np.array_equal(ez, table.pair(speed, 0.0, check=False).ez)
-    assert legend(second) == ["v / cₛ too large", "a / R too large", "slide too long"]
+    limits = ["v / cₛ too large", "a / R too large", "slide too long"]
+    assert legend(second) == limits
+    assert first.get_legend_handles_labels()[1] == limits[:2]
 
 
 @pytest.mark.component("fit")
@@ -252,3 +265,16 @@ def test_work_is_drawn_over_the_error_with_a_curve_a_method():
     ax = plot.work({"euler": ([1e-2, 1e-3], [1, 10]), "sync": ([1e-2, 1e-5], [1, 2])})
     assert legend(ax) == ["euler", "sync"] and ax.get_xscale() == ax.get_yscale() == "log"
     assert ax.get_lines()[1].get_ydata().tolist() == [1, 2]
+
+
+@pytest.mark.component("fit")
+def test_a_fit_of_moduli_is_drawn_over_the_frequency_with_relative_residuals():
+    solid, frequency = restitute.Material.maxwell(1e6, 1e4), np.geomspace(0.1, 1000, 15)
+    moduli = [of(2 * np.pi * frequency) for of in (solid.storage_modulus, solid.loss_modulus)]
+    moduli[1] = 1.01 * moduli[1]
+    fit = restitute.fit_dma(frequency, *moduli)
+    first, second = plot.fit(fit)
+    assert np.allclose(first.get_lines()[2].get_ydata(), moduli[1])
+    fitted = fit.material.loss_modulus(2 * np.pi * frequency)
+    assert np.allclose(second.get_lines()[1].get_ydata(), moduli[1] / fitted - 1)
+    assert first.get_yscale() == "log" and legend(second) == ["storage", "loss"]

@@ -143,10 +143,10 @@ class ContactLaw:
             motions = self.motions(len(places))
         elif len(motions) != len(places):
             raise errors.DomainError(f"motions: {len(motions)} are given, must be {len(places)}")
+        known = list(motions.dtype.fields or ())[1:]
         for name, value in members.items():
-            if name not in motions.dtype.names[1:]:
-                known = ", ".join(motions.dtype.names[1:])
-                raise TypeError(f"'{name}' is not one of {known}")
+            if name not in known:
+                raise TypeError(f"'{name}' is not one of {', '.join(known)}")
             motions[name] = value
         rates = _library.struct("contact_rates", "contact")
         call(_library.contact.restitute_contact_rates_set, self._handle, step, rates)

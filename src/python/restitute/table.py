@@ -316,8 +316,9 @@ class Table:
         if beyond:
             _library.warn(f"{beyond} of {count} impacts are outside the table's range, whose ends "
                           "are taken", errors.ModelLimitWarning)
-        return (*after((first, second), bodies, shape, []),
-                TablePairs(ez.reshape(shape)[()], ex.reshape(shape)[()], lambda: None))
+        first, second = after((first, second), bodies, shape, [])
+        return first, second, TablePairs(ez.reshape(shape)[()], ex.reshape(shape)[()],
+                                         lambda: None)
 
     def beyond(self, normal_speed: Any, contact: TableContact | None = None) -> Any:
         """Whether normal speeds (m/s) are outside the range, whose end is then taken."""

@@ -74,10 +74,10 @@ def _check_options(arguments):
                           "or .pdf")
         files.check(arguments.figure, "--figure")
         options.need("matplotlib", "--figure")
-    arguments.format = arguments.format or "csv"
-    if (arguments.output or "").lower().endswith((".h5", ".hdf5")):
+    if arguments.format is None and (arguments.output or "").lower().endswith((".h5", ".hdf5")):
         options.need("h5py", f"--output = {arguments.output}")
         arguments.format = "hdf5"
+    arguments.format = arguments.format or "csv"
 
 
 class _Batch:
@@ -278,7 +278,8 @@ class _Batch:
         units = {name: f" {field.unit}".replace(" 1", "") for name, field in problem.FIELDS.items()}
         note = ", ".join(f"{name.replace('_', ' ')} {value:g}{units[name]}"
                          for name, value in self.given.items() if name in units)
-        ax = plot.sheet(2, title, note, f"restitute {restitute.version()}")
+        ax = plot.sheet(2, title, note, f"restitute {restitute.version()}, method "
+                        f"{self.solution['method']}, tolerance {self.solution['tolerance']:g}")
         ez, ex = self.rows.values[:2]
         plot.grid(self._columns(), SimpleNamespace(ez=ez, ex=ex, flags=self.rows.flags()),
                   axes=self.axes, contours=self.arguments.contours, log=self.cases.log,

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`restitute paper`: figures by name, one after the other, each a batch of its own whose rows become
-a CSV, a figure and checks."""
+"""`restitute paper`: figures by name, each a batch of its own whose rows become a CSV, a figure and
+checks."""
 import argparse
 import io
 import os
@@ -10,7 +10,7 @@ from restitute.command.options import Refusal, emit, listed, say
 
 _DRAWN = (".svg", ".pdf")
 _ROWS = (".csv", ".csv.meta.json", ".csv.partial", ".csv.partial.json")
-_EPILOG = """Each figure becomes NAME.csv, NAME.svg and NAME.pdf in the folder --output (default: here):
+_EPILOG = """A figure becomes NAME.csv, NAME.svg and NAME.pdf in the folder --output, or here:
   restitute paper fig4 --output figures
   restitute paper all --output figures --material polyisobutylene
 fig4, fig6: ez; fig5, fig8, fig9: ex over delta1 and psi; fig7: ex without slip; fig10, fig11: psi_c
@@ -72,8 +72,8 @@ def _check(arguments, names, known, folder):
         raise Refusal(f'"{names[0][:64]}": must be fig4 to fig11, maxwell, temperature, tangent, '
                       f"friction or all{options.did_you_mean(names[0], known)}")
     if arguments.tolerance is not None and arguments.tolerance < 1e-6:
-        raise Refusal(f"--tolerance = {arguments.tolerance:g}: must be at least 1e-6 with a figure, "
-                      "whose lines are solved with a hundredth")
+        raise Refusal(f"--tolerance = {arguments.tolerance:g}: must be at least 1e-6 with a "
+                      "figure, whose lines are solved with a hundredth")
     places = files.Places()
     if arguments.material is not None:
         if "temperature" not in names:

@@ -92,7 +92,7 @@ def _psi_c(figure, ax):
         ax.plot(figure.lines.x, figure.formula(figure.lines.ez[curve]), label=name,
                 **plot.look(curve, curves, marker=""))
         ax.plot(delta1[curve], figure.psi_c[curve], **plot.look(curve, curves, linestyle=""))
-    _axes(figure, ax, "δ₁", "|simulated ψ over ψ of (31), − 1|" if error else r"$\psi_c$",
+    _axes(figure, ax, "δ₁", "|simulated ψ / ψ by (31) − 1|" if error else r"$\psi_c$",
           yscale="log" if error else "linear")
 
 

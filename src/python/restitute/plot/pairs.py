@@ -146,7 +146,8 @@ def map(x: Any, y: Any, pairs: Any, quantity: str = "ex", *, xlabel: str = "spee
     ax = axes_of(ax)
     z = np.asarray(getattr(pairs, quantity), float)
     (x, i), (y, j) = (np.unique(np.broadcast_to(v, z.shape), return_inverse=True) for v in (x, y))
-    nodes, full, flags = (j.ravel(), i.ravel()), *np.zeros((2, len(y), len(x)))
+    shape, nodes = (len(y), len(x)), (j.ravel(), i.ravel())
+    full, flags = np.full(shape, np.nan), np.zeros(shape, int)
     full[nodes] = z.ravel()
     flags[nodes] = np.broadcast_to(getattr(pairs, "flags", 0), z.shape).ravel()
     ax.set(xlim=_scale(ax, "x", x, log[0]), ylim=_scale(ax, "y", y, log[1]), xlabel=xlabel,
@@ -160,7 +161,7 @@ def map(x: Any, y: Any, pairs: Any, quantity: str = "ex", *, xlabel: str = "spee
     else:
         ax.text(0.5, 0.5, f"restitution = {np.nanmean(full):.4g} everywhere", ha="center",
                 transform=ax.transAxes)
-    shade_limits(ax, x, y, flags.astype(int))
+    shade_limits(ax, x, y, flags)
     legend(ax)
     return ax
 

@@ -93,7 +93,7 @@ def legend(ax: Any, title: str = "") -> None:
     """The legend right of the axes, where no data are."""
     if ax.get_legend_handles_labels()[0]:
         ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.02), borderaxespad=0,
-                  title=title or None, alignment="left", frameon=False)
+                  title=title or None, frameon=False)
 
 
 def save(ax: Any, file: Any, format: str | None = None) -> None:
