@@ -16,8 +16,8 @@ import cffi
 def declarations(compiler, include, headers):
     """The C of the headers as cffi reads it: no includes of the system, no inline functions."""
     source = "".join(f"#include <restitute/{header}.h>\n" for header in headers)
-    text = subprocess.run([*compiler.split(), "-E", "-P", f"-I{include}", "-D__attribute__(x)=", "-"], input=source,
-                          capture_output=True, text=True, check=True).stdout
+    command = [*compiler.split(), "-E", "-P", f"-I{include}", "-D__attribute__(x)=", "-"]
+    text = subprocess.run(command, input=source, capture_output=True, text=True, check=True).stdout
     text = text[text.index("typedef enum restitute_status"):]
     text = re.sub(r"static inline [^{]*\{[^}]*\}", "", text)
     return re.sub(r"= \((-?\d+)\)", r"= \1", text)
