@@ -21,7 +21,7 @@ for name; do
         [ -s docs/figures/bem.svg ]
         ;;
     table_campaign.py)
-        campaign "$name" solids 200 1 | tee solids
+        campaign "$name" solids 200 1 >solids
         [ "$(grep -c '^| elastic | 0.3 ' solids)" -eq 1 ]
         campaign "$name" random 200 1
         ;;

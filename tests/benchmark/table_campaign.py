@@ -100,4 +100,4 @@ def main(kind="solids", places="10000", count=None):
 
 
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+    sys.exit(int(main(*sys.argv[1:])))
