@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A page for each material that the package knows by name: constants, moduli, the figure to try."""
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import tables
+
+import restitute
+from restitute import plot
+
+matplotlib.use("agg")
+
+PAGE = """# {title}
+
+{source}
+
+    restitute pair --material {name} --radius 0.005 --friction 0.3 --speed 0.1 --angle 30 --density {ball:g}
+
+{constants}
+{moduli}
+## Try an impact
+
+A solid ball and a thick wall. One of them is of this material and the other one is rigid.
+
+<div class="impact" id="impact"><noscript>This figure needs JavaScript.</noscript></div>
+<script type="application/json" id="impact-table">{table}</script>
+<script src="../_static/impact.js" defer></script>
+
+The figure interpolates in a table that the library made. Against {count} random impacts within
+the ranges of the sliders it errs by at most {error_ez:.1g} in e_z and {error_ex:.1g} in e_x. Shaded is
+what lies beyond the [limits of the model](../docs/theory.md#11-when-the-model-holds): a contact
+radius above {radius:g} of the ball's radius, a normal speed above {speed:g} of the shear wave speed, a slide
+above {displacement:g} of the contact radius. There the numbers are those of the model and not of the ball.
+"""
+
+
+def _number(value):
+    return "{:.3g}".format(value)
+
+
+def _constants(material):
+    series = material.series
+    rows = [("model", material.model.replace("_", " ")),
+            ("Poisson's ratio", _number(material.poisson_ratio)),
+            ("density", _number(material.density) + " kg/m³" if material.density > 0 else "not given"),
+            ("modulus of fast impacts", _number(series.equilibrium_modulus + series.modulus.sum()) + " Pa")]
+    if len(series.modulus):
+        low, high = series.relaxation_time.min(), series.relaxation_time.max()
+        rows += [("modulus after long times", _number(series.equilibrium_modulus) + " Pa"),
+                 ("relaxation times", f"{len(series.modulus)}: {low:.3g} s to {high:.3g} s"
+                  if len(series.modulus) > 1 else f"{low:.3g} s")]
+    if series.parallel_viscosity > 0:
+        rows.append(("viscosity", _number(series.parallel_viscosity) + " Pa s"))
+    return "| | |\n|---|---|\n" + "".join(f"| {name} | {value} |\n" for name, value in rows)
+
+
+def _moduli(material, name, folder):
+    """Figures of the moduli; none of an elastic solid, whose modulus is a number."""
+    series = material.series
+    if not len(series.modulus):
+        return ""
+    low, high = 0.1 * series.relaxation_time.min(), 10 * series.relaxation_time.max()
+    plot.save(plot.relaxation(material, np.geomspace(low, high, 300)), folder / f"{name}-relaxation.svg")
+    plot.save(plot.moduli(material, np.geomspace(1 / high, 1 / low, 300)), folder / f"{name}-moduli.svg")
+    return (f"![Relaxation modulus G(t)]({name}-relaxation.svg)\n\n"
+            f"![Storage and loss modulus]({name}-moduli.svg)\n")
+
+
+def write_all(stage):
+    """The pages, as paths."""
+    pages, folder = [], stage.out / "materials"
+    folder.mkdir(parents=True)
+    for name in restitute.material_names():
+        material, table = restitute.material(name), tables.table_of(name)
+        pages.append(Path("materials") / f"{name}.md")
+        stage.write(pages[-1], PAGE.format(
+            title=material.name or name, source=material.source or "", name=name,
+            ball=7800, constants=_constants(material), moduli=_moduli(material, name, folder),
+            table=json.dumps(table, separators=(",", ":"), allow_nan=False), count=tables.CHECKED,
+            error_ez=table["error"]["ez"], error_ex=table["error"]["ex"], **table["limits"]))
+    return pages
