@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every link, figure, style and script of the site leads to a file, and every #section to an element
-with that id: check_links.py SITE
+"""Every link, figure, style and script of the site leads to a file, and every #section to an
+element with that id: check_links.py SITE
 
 Links to other hosts are not followed, but nothing may be loaded from there.
 """
 from __future__ import annotations
 
+import re
 import sys
 from html.parser import HTMLParser
 from pathlib import Path
@@ -14,6 +15,7 @@ from urllib.parse import unquote, urlsplit
 LOADED = {("img", "src"), ("script", "src"), ("link", "href"), ("iframe", "src"), ("object", "data")}
 LINKED = LOADED | {("a", "href"), ("area", "href")}
 DOXYGEN = "nested-classes"  # Doxygen links it above each Fortran module and does not make it
+CSS = re.compile(r"""url\(\s*["']?([^"')]+)""")
 NOT_LOADED = {"canonical", "search", "next", "prev", "index", "author", "genindex"}
 
 
@@ -41,6 +43,11 @@ def wrong_links(site):
     """Pages that were read, links that were followed, and a line for each that is wrong."""
     pages = {path: Page(path) for path in sorted(site.rglob("*.html"))}
     wrong, count = [], 0
+    for path in sorted(site.rglob("*.css")):
+        for target in CSS.findall(path.read_text(encoding="utf-8")):
+            file = path.parent / urlsplit(target).path
+            if not target.startswith(("data:", "#")) and (target.startswith("/") or not file.is_file()):
+                wrong.append(f"{path.relative_to(site)}: {target} does not exist")
     for path, page in pages.items():
         name = path.relative_to(site)
         wrong += [f"{name}: {target} is loaded from another host" for target in page.loaded

@@ -2,6 +2,8 @@
 """Sphinx over the tree of pages that stage.py makes."""
 import os
 import re
+import shutil
+from pathlib import Path
 
 import restitute
 
@@ -34,6 +36,22 @@ def escape(app, what, name, obj, options, lines):
                 for line in lines]
 
 
+def stand_alone(app, exception):
+    """Debian's furo loads normalize.css from a server and its script as modules, which a page in a
+    file cannot do: both become part of the site. A furo of PyPI has neither line."""
+    static = Path(app.outdir, "_static")
+    style, script = static / "styles/furo.css", static / "scripts/furo.js"
+    served = "/javascript/normalize.css/normalize.css"
+    if exception is None and served in (text := style.read_text(encoding="utf-8")):
+        shutil.copy(f"/usr/share{served}", static / "styles/normalize.css")
+        style.write_text(text.replace(served, "normalize.css"), encoding="utf-8")
+    imported = 'import Gumshoe from "./gumshoe-patched.js";'
+    if exception is None and imported in (text := script.read_text(encoding="utf-8")):
+        part = (static / "scripts/gumshoe-patched.js").read_text(encoding="utf-8")
+        script.write_text(part + text.replace(imported, ""), encoding="utf-8")
+
+
 def setup(app):
-    """Before numpydoc, which has the priority 500."""
+    """`escape` comes before numpydoc, which has the priority 500."""
     app.connect("autodoc-process-docstring", escape, priority=400)
+    app.connect("build-finished", stand_alone)

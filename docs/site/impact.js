@@ -46,7 +46,7 @@ function evaluate(table, impact) {
     ez, ex, psi, normal,
     contact_time: time * Math.exp(along("contact")),
     radius_ratio: strain * Math.exp(along("radius")),
-    speed_ratio: normal / Math.exp(along("wave")),
+    speed_ratio: normal / Math.exp(along("wave")) * Math.sqrt(table.density ? 1 : impact.density),
     displacement_ratio: slope * strain * Math.exp(along("depth")),
   };
   result.passed = [];
@@ -59,12 +59,12 @@ function evaluate(table, impact) {
 /* ---- The page ---- */
 
 const SLIDERS = [
-  { key: "radius", label: "Radius of the ball", unit: "mm", scale: 1e3, log: true, start: 5e-3 },
-  { key: "speed", label: "Speed", unit: "m/s", scale: 1, log: true, start: 0.1 },
-  { key: "angle", label: "Angle to the normal", unit: "degrees", scale: 1, log: false, start: 30 },
-  { key: "friction", label: "Friction coefficient", unit: "", scale: 1, log: false, start: 0.3 },
+  { key: "radius", label: "Radius of the ball", unit: "mm", scale: 1e3, step: 0, start: 5e-3 },
+  { key: "speed", label: "Speed", unit: "m/s", scale: 1, step: 0, start: 0.1 },
+  { key: "angle", label: "Angle to the normal", unit: "degrees", scale: 1, step: 1, start: 30 },
+  { key: "friction", label: "Friction coefficient", unit: "", scale: 1, step: 0.01, start: 0.3 },
 ];
-const STEPS = 400;
+const STEPS = 200; /* of a logarithmic slider, which has no step of its own */
 const WORDS = {
   radius: "The contact is not small against the ball",
   speed: "The impact is not slow against shear waves",
@@ -84,21 +84,19 @@ function element(tag, attributes, ...children) {
   return node;
 }
 
-/* Between a slider's place, 0 to STEPS, and its value. */
-function valueAt(slider, range, step) {
-  const x = step / STEPS;
-  return slider.log ? range[0] * Math.pow(range[1] / range[0], x) : range[0] + (range[1] - range[0]) * x;
+/* A slider's last place; the value of a place, as shown; and the place of a value. */
+function lastOf(slider, range) {
+  return slider.step ? Math.round((range[1] - range[0]) / slider.step) : STEPS;
 }
 
-function stepAt(slider, range, value) {
-  const x = slider.log ? Math.log(value / range[0]) / Math.log(range[1] / range[0])
-    : (value - range[0]) / (range[1] - range[0]);
-  return Math.round(STEPS * Math.min(Math.max(x, 0), 1));
+function valueAt(slider, range, place) {
+  if (slider.step) return Number((range[0] + slider.step * place).toFixed(4));
+  return Number((range[0] * Math.pow(range[1] / range[0], place / STEPS)).toPrecision(2));
 }
 
-/* What a slider means: three digits, as shown. */
-function valueOf(slider, range, step) {
-  return Number(valueAt(slider, range, step).toPrecision(3));
+function placeOf(slider, range, value) {
+  if (slider.step) return Math.round((value - range[0]) / slider.step);
+  return Math.round(STEPS * Math.log(value / range[0]) / Math.log(range[1] / range[0]));
 }
 
 /* The balls: of the material where its density is known, and a rigid one of steel. */
@@ -124,10 +122,10 @@ function controls(table, state, changed) {
     element("label", { for: "impact-ball" }, "Ball and wall"), select));
   for (const slider of SLIDERS) {
     const range = table.ranges[slider.key], shown = element("output", { for: `impact-${slider.key}` });
-    const input = element("input", { type: "range", id: `impact-${slider.key}`, min: 0, max: STEPS, step: 1,
-      value: stepAt(slider, range, slider.start) });
+    const input = element("input", { type: "range", id: `impact-${slider.key}`, min: 0, max: lastOf(slider, range), step: 1,
+      value: placeOf(slider, range, slider.start) });
     const read = () => {
-      state[slider.key] = valueOf(slider, range, Number(input.value));
+      state[slider.key] = valueAt(slider, range, Number(input.value));
       shown.textContent = `${rounded(state[slider.key] * slider.scale, 3)} ${slider.unit}`.trim();
       input.setAttribute("aria-valuetext", shown.textContent);
     };

@@ -5,37 +5,38 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-import matplotlib
 import numpy as np
 import tables
 
 import restitute
 from restitute import plot
 
-matplotlib.use("agg")
-
 PAGE = """# {title}
 
 {source}
 
-    restitute pair --material {name} --radius 0.005 --friction 0.3 --speed 0.1 --angle 30 --density {ball:g}
-
 {constants}
-{moduli}
+    restitute pair --material {name} --radius 0.005 --density 7800 --friction 0.3 \\
+        --speed 0.1 --angle 30
+
 ## Try an impact
 
-A solid ball and a thick wall. One of them is of this material and the other one is rigid.
+A solid ball hits a thick wall. One of them is of this material and the other one is rigid.
 
 <div class="impact" id="impact"><noscript>This figure needs JavaScript.</noscript></div>
 <script type="application/json" id="impact-table">{table}</script>
 <script src="../_static/impact.js" defer></script>
 
-The figure interpolates in a table that the library made. Against {count} random impacts within
-the ranges of the sliders it errs by at most {error_ez:.1g} in e_z and {error_ex:.1g} in e_x. Shaded is
-what lies beyond the [limits of the model](../docs/theory.md#11-when-the-model-holds): a contact
-radius above {radius:g} of the ball's radius, a normal speed above {speed:g} of the shear wave speed, a slide
-above {displacement:g} of the contact radius. There the numbers are those of the model and not of the ball.
-"""
+Shaded is what lies beyond the [limits of the model](../docs/theory.md#11-when-the-model-holds): a
+contact radius above {radius:g} of the ball's radius, a normal speed above {speed:g} of the shear
+wave speed, a slide above {displacement:g} of the contact radius. There the numbers are those of the
+model and not of the ball.
+
+The figure interpolates in a table that the library made. {count} random impacts within the ranges
+of the sliders differ by less than {error_ez:.1g} in e_z and {error_ex:.1g} in e_x from what the
+library computes.
+
+{moduli}"""
 
 
 def _number(value):
@@ -64,9 +65,13 @@ def _moduli(material, name, folder):
     if not len(series.modulus):
         return ""
     low, high = 0.1 * series.relaxation_time.min(), 10 * series.relaxation_time.max()
-    plot.save(plot.relaxation(material, np.geomspace(low, high, 300)), folder / f"{name}-relaxation.svg")
-    plot.save(plot.moduli(material, np.geomspace(1 / high, 1 / low, 300)), folder / f"{name}-moduli.svg")
-    return (f"![Relaxation modulus G(t)]({name}-relaxation.svg)\n\n"
+    axes = plot.relaxation(material, np.geomspace(low, high, 300), ax=plot.sheet())
+    axes.get_legend().remove()  # one curve, whose name is the title of the page
+    plot.save(axes, folder / f"{name}-relaxation.svg")
+    axes = plot.moduli(material, np.geomspace(1 / high, 1 / low, 300), ax=plot.sheet())
+    plot.save(axes, folder / f"{name}-moduli.svg")
+    return ("## Moduli\n\n"
+            f"![Relaxation modulus G(t)]({name}-relaxation.svg)\n\n"
             f"![Storage and loss modulus]({name}-moduli.svg)\n")
 
 
@@ -75,11 +80,12 @@ def write_all(stage):
     pages, folder = [], stage.out / "materials"
     folder.mkdir(parents=True)
     for name in restitute.material_names():
-        material, table = restitute.material(name), tables.table_of(name)
+        material = restitute.material(name)
+        table = tables.table_of(material)
         pages.append(Path("materials") / f"{name}.md")
         stage.write(pages[-1], PAGE.format(
             title=material.name or name, source=material.source or "", name=name,
-            ball=7800, constants=_constants(material), moduli=_moduli(material, name, folder),
+            constants=_constants(material), moduli=_moduli(material, name, folder),
             table=json.dumps(table, separators=(",", ":"), allow_nan=False), count=tables.CHECKED,
             error_ez=table["error"]["ez"], error_ex=table["error"]["ex"], **table["limits"]))
     return pages

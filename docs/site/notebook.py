@@ -35,6 +35,7 @@ def page_of(path, folder):
 
     stem, parts, drawn = path.stem, [], 0
     names, before = {"__name__": "__main__"}, os.getcwd()
+    pyplot.close("all")
     os.chdir(path.parent)
     try:
         for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pages of the reference: the Python package by its docstrings, and the way to Doxygen's HTML."""
+"""The pages of the reference: the Python package by its docstrings, the way to Doxygen's HTML."""
 from __future__ import annotations
 
 from importlib import import_module

@@ -34,6 +34,7 @@ SECTIONS = (
     ("Records", "What was measured: errors, run times, comparisons.", ("docs/records/*",)),
     ("Guides", "How to do one thing.", ("docs/python.md", "docs/gallery.md", "docs/fit.md", "*")),
 )
+TITLES = {"README.md": "Overview <{}>", "docs/README.md": "All pages <{}>"}
 ORDER = ("Start", "Guides", "Materials", "Reference", "Theory", "Records")
 LANGUAGE = {".c": "c", ".h": "c", ".cpp": "cpp", ".f90": "fortran", ".py": "python", ".sh": "sh",
             ".json": "json", ".txt": "text", ".cmake": "cmake"}
@@ -157,7 +158,8 @@ def first_page(stage, pages):
     parts = [stage.linked(text.replace("](../", "](docs/"), Path("."))]
     says = {heading: words for heading, words, _ in SECTIONS}
     for heading in ORDER:
-        names = "\n".join(page.with_suffix("").as_posix() for page in entries[heading])
+        names = "\n".join(TITLES.get(page.as_posix(), "{}").format(page.with_suffix("").as_posix())
+                          for page in entries[heading])
         parts.append(f"## {heading}\n\n{says[heading]}\n\n```{{toctree}}\n:maxdepth: 1\n"
                      f":caption: {heading}\n\n{names}\n```\n")
     stage.write(Path("index.md"), "\n".join(parts))

@@ -12,7 +12,6 @@ cubics through four neighbours; `measured_errors` says how far that is off.
 """
 from __future__ import annotations
 
-import json
 import warnings
 
 import numpy as np
@@ -64,7 +63,8 @@ def numbers(nu):
 
 
 def solve(material, time, psi):
-    """Pairs at T (s) and psi: at 1 m/s, with unit density; T sets the radius."""
+    """Pairs at T (s) and psi: at 1 m/s, with unit density; T sets the radius. The wave speed is
+    that of the material's density, where it is known."""
     c, (_, kappa) = compliance(material), numbers(material.poisson_ratio)
     radius = np.asarray(time, float) / time_scale(c, 1.0, 1.0, 1.0)
     density = material.density if material.density > 0 else 1.0
@@ -92,9 +92,8 @@ def _rounded(values, digits):
     return [float(f"{v:.{digits}g}") if np.isfinite(v) else None for v in values]
 
 
-def table_of(name):
+def table_of(material):
     """What impact.js needs of a material, with the errors against the library."""
-    material = restitute.material(name)
     chi, kappa = numbers(material.poisson_ratio)
     t = times(material)
     stick = solve(material, t[:, None], np.linspace(0, 1, STICK))
@@ -109,7 +108,6 @@ def table_of(name):
     depth = solve(material, t, kappa).displacement_ratio / length
     with np.errstate(all="ignore"):
         table = {
-            "material": name, "title": material.name, "source": material.source,
             "density": float(material.density) if material.density > 0 else None,
             "chi": chi, "kappa": kappa, "compliance": compliance(material),
             "log_time": [float(np.log(t[0])), float(np.log(t[-1])), len(t)],
@@ -174,9 +172,3 @@ def measured_errors(material, table, count=CHECKED):
     ez, ex = look_up(table, **impacts)
     return {"ez": float(f"{1.5 * np.max(np.abs(ez - exact.ez)) + 1e-4:.2g}"),
             "ex": float(f"{1.5 * np.max(np.abs(ex - exact.ex)) + 1e-4:.2g}")}
-
-
-def dump(table, path):
-    """Write a table without blanks."""
-    with open(path, "w", encoding="utf-8") as file:
-        json.dump(table, file, separators=(",", ":"), allow_nan=False)
