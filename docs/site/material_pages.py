@@ -40,7 +40,7 @@ library computes.
 
 
 def _number(value):
-    return "{:.3g}".format(value)
+    return f"{value:.3g}"
 
 
 def _constants(material):
