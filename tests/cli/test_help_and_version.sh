@@ -29,7 +29,7 @@ has out --samples --output --figure 'restitute history' time_s
 
 # Every option that --help shows is in the manual page.
 sed 's/\\-/-/g' "$SOURCE_DIR/docs/restitute.1" >manual
-for command in pair history sweep; do
+for command in pair history sweep cite; do
     expect 0 $command --help
     for option in $(sed -n 's/^  *--\([a-z0-9-]*\).*/\1/p' out); do
         grep -Eq "(^\.It Fl|Fl) -$option( |\$)" manual || fail "the manual page lacks --$option"

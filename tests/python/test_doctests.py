@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The examples in the docstrings of the package, and those of docs/python.md."""
+"""The examples in the docstrings of the package, and those of two pages."""
 
 import doctest
 import importlib
@@ -33,8 +33,11 @@ def test_examples_of_docstrings_give_what_they_show(name, tmp_path, monkeypatch)
     assert doctest.testmod(module, optionflags=OPTIONS).failed == 0
 
 
-def test_examples_of_the_page_give_what_they_show(tmp_path, monkeypatch):
+@pytest.mark.parametrize("name", ["python.md", "coming_from.md"])
+def test_examples_of_a_page_give_what_they_show(name, tmp_path, monkeypatch):
+    if name == "coming_from.md" and not _library.available("fit"):
+        pytest.skip("the component fit is not in this build")
     pytest.importorskip("matplotlib").use("agg")
     monkeypatch.chdir(tmp_path)
-    page = Path(__file__).parents[2] / "docs" / "python.md"
+    page = Path(__file__).parents[2] / "docs" / name
     assert doctest.testfile(str(page), False, optionflags=OPTIONS).failed == 0

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # which names there are, for type checkers
     from restitute import paper, plot
+    from restitute.citing import cite
     from restitute.collisions import Body, collide
     from restitute.contact import ContactLaw
     from restitute.errors import (
@@ -39,7 +40,7 @@ if TYPE_CHECKING:  # which names there are, for type checkers
 
 # Where each name comes from at run time, as above.
 _HOME = {name: module for module, names in {
-    "collisions": "Body collide", "contact": "ContactLaw",
+    "citing": "cite", "collisions": "Body collide", "contact": "ContactLaw",
     "errors": "DomainError Error FileError FormatError MissingComponent ModelLimitWarning "
               "SolverError ToleranceWarning",
     "executor": "map_chunks", "fitting": "fit_dma fit_drop_test", "histories": "History history",

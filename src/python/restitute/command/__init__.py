@@ -19,6 +19,7 @@ COMMANDS = {
     "fit": ("fit", "material constants from measured impacts or a DMA curve"),
     "materials": ("materials", "the materials that are known by name"),
     "paper": ("paper", "the figures of the paper and more, remade and checked"),
+    "cite": ("cite", "what to cite: the paper, this software, the sources of materials"),
 }
 OLD_NAMES = {"sweep": "paper"}
 _LICENCES = {"bem": ("FFTW", 2, "method"), "fit": ("GSL", 3, "command")}
