@@ -14,6 +14,7 @@ version = release = restitute.version()
 extensions = ["myst_parser", "sphinx.ext.autodoc", "numpydoc"]
 root_doc = "index"
 source_suffix = {".md": "markdown"}
+smartquotes = False  # u'' is a derivative, and --option an option
 highlight_language = "text"  # of indented code, which is commands and formulas
 myst_heading_anchors = 4  # sections are linked as on GitHub
 numpydoc_show_class_members = False
@@ -38,13 +39,16 @@ def escape(app, what, name, obj, options, lines):
 
 def stand_alone(app, exception):
     """Debian's furo loads normalize.css from a server and its script as modules, which a page in a
-    file cannot do: both become part of the site. A furo of PyPI has neither line."""
+    file cannot do: both become part of the site. And its styles lack the dark page of a dark
+    desktop, though the code in it is dark. A furo of PyPI has none of the lines."""
     static = Path(app.outdir, "_static")
     style, script = static / "styles/furo.css", static / "scripts/furo.js"
     served = "/javascript/normalize.css/normalize.css"
     if exception is None and served in (text := style.read_text(encoding="utf-8")):
         shutil.copy(f"/usr/share{served}", static / "styles/normalize.css")
-        style.write_text(text.replace(served, "normalize.css"), encoding="utf-8")
+        dark = re.search(r'body\[data-theme="dark"\] (\{[^}]*\})', text)[1]
+        dark = f'@media (prefers-color-scheme: dark) {{ body[data-theme="auto"] {dark} }}\n'
+        style.write_text(text.replace(served, "normalize.css") + dark, encoding="utf-8")
     imported = 'import Gumshoe from "./gumshoe-patched.js";'
     if exception is None and imported in (text := script.read_text(encoding="utf-8")):
         part = (static / "scripts/gumshoe-patched.js").read_text(encoding="utf-8")

@@ -53,6 +53,9 @@ function evaluate(table, impact) {
   if (!(result.radius_ratio <= table.limits.radius)) result.passed.push("radius");
   if (!(result.speed_ratio <= table.limits.speed)) result.passed.push("speed");
   if (!(result.displacement_ratio <= table.limits.displacement)) result.passed.push("displacement");
+  if (table.window && !(result.contact_time >= table.window[0] && result.contact_time <= table.window[1])) {
+    result.passed.push("window");
+  }
   return result;
 }
 
@@ -69,6 +72,7 @@ const WORDS = {
   radius: "The contact is not small against the ball",
   speed: "The impact is not slow against shear waves",
   displacement: "The slide is long against the contact",
+  window: "The material was not measured at this contact time",
 };
 
 function rounded(value, digits) {
@@ -139,7 +143,7 @@ function controls(table, state, changed) {
 
 /* ---- Panels ---- */
 
-const WIDTH = 420, HEIGHT = 300, LEFT = 46, RIGHT = 14, TOP = 30, BOTTOM = 46, LOW = -1, HIGH = 1;
+const WIDTH = 420, HEIGHT = 300, LEFT = 46, RIGHT = 14, TOP = 30, BOTTOM = 46, LOW = -1, HIGH = 1.06;
 const CURVES = [{ key: "ez", name: "e", sub: "z", class: "impact-ez" }, { key: "ex", name: "e", sub: "x", class: "impact-ex" }];
 
 function toY(value) {
@@ -238,14 +242,15 @@ function numbers(box, table, state) {
     row([...sub("e", "z"), ", normal restitution"], `${now.ez.toFixed(3)} ± ${rounded(error.ez, 1)}`),
     row([...sub("e", "x"), ", tangential restitution"],
       `${now.ex.toFixed(3).replace("-", "−")} ± ${rounded(error.ex, 1)}`),
-    row(["contact time"], Number.isFinite(now.contact_time) ? `${rounded(now.contact_time * 1e3, 3)} ms` : "no rebound"),
+    row(["contact time"], Number.isFinite(now.contact_time) ? `${rounded(now.contact_time * 1e3, 3)} ms` : "no rebound",
+      now.passed.includes("window")),
     row(["contact radius / radius"], rounded(now.radius_ratio, 2), now.passed.includes("radius")),
     row(["normal speed / shear wave speed"], rounded(now.speed_ratio, 2), now.passed.includes("speed")),
     row(["slide / contact radius"], rounded(now.displacement_ratio, 2), now.passed.includes("displacement")),
   ];
   const words = now.passed.map((key) => WORDS[key]).join(". ");
   box.replaceChildren(element("table", {}, element("tbody", {}, ...rows)),
-    element("p", { class: "impact-words" }, words ? `Beyond the limits of the model: ${words}.` : "Within the limits of the model."));
+    element("p", { class: "impact-words" }, words ? `Beyond the limits: ${words}.` : "Within the limits."));
 }
 
 function start(root, table) {

@@ -11,6 +11,9 @@ import tables
 import restitute
 from restitute import plot
 
+MODELS = {"prony": "Prony series", "kelvin_voigt": "Kelvin-Voigt", "maxwell": "Maxwell"}
+WINDOW = """, or
+a contact time at which the material was not measured"""
 PAGE = """# {title}
 
 {source}
@@ -29,8 +32,8 @@ A solid ball hits a thick wall. One of them is of this material and the other on
 
 Shaded is what lies beyond the [limits of the model](../docs/theory.md#11-when-the-model-holds): a
 contact radius above {radius:g} of the ball's radius, a normal speed above {speed:g} of the shear
-wave speed, a slide above {displacement:g} of the contact radius. There the numbers are those of the
-model and not of the ball.
+wave speed, a slide above {displacement:g} of the contact radius{window}. There the numbers are those
+of the model and not of the ball.
 
 The figure interpolates in a table that the library made. {count} random impacts within the ranges
 of the sliders differ by less than {error_ez:.1g} in e_z and {error_ex:.1g} in e_x from what the
@@ -40,22 +43,34 @@ library computes.
 
 
 def _number(value):
-    return f"{value:.3g}"
+    return f"{value:.4g}"
+
+
+def _pascal(value):
+    for unit, name in ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa")):
+        if value >= unit:
+            return f"{value / unit:.3g} {name}"
+    return f"{value:.3g} Pa"
 
 
 def _constants(material):
     series = material.series
-    rows = [("model", material.model.replace("_", " ")),
+    elastic = not len(series.modulus) and not series.parallel_viscosity
+    window = tables.window_of(material)
+    rows = [("model", MODELS.get(material.model, material.model.replace("_", " "))),
             ("Poisson's ratio", _number(material.poisson_ratio)),
             ("density", _number(material.density) + " kg/m³" if material.density > 0 else "not given"),
-            ("modulus of fast impacts", _number(series.equilibrium_modulus + series.modulus.sum()) + " Pa")]
+            ("shear modulus" if elastic else "shear modulus of fast impacts",
+             _pascal(series.equilibrium_modulus + series.modulus.sum()))]
     if len(series.modulus):
         low, high = series.relaxation_time.min(), series.relaxation_time.max()
-        rows += [("modulus after long times", _number(series.equilibrium_modulus) + " Pa"),
+        rows += [("shear modulus after long times", _pascal(series.equilibrium_modulus)),
                  ("relaxation times", f"{len(series.modulus)}: {low:.3g} s to {high:.3g} s"
                   if len(series.modulus) > 1 else f"{low:.3g} s")]
     if series.parallel_viscosity > 0:
         rows.append(("viscosity", _number(series.parallel_viscosity) + " Pa s"))
+    if window:
+        rows.append(("measured at times of", f"{window[0]:.3g} s to {window[1]:.3g} s"))
     return "| | |\n|---|---|\n" + "".join(f"| {name} | {value} |\n" for name, value in rows)
 
 
@@ -87,5 +102,5 @@ def write_all(stage):
             title=material.name or name, source=material.source or "", name=name,
             constants=_constants(material), moduli=_moduli(material, name, folder),
             table=json.dumps(table, separators=(",", ":"), allow_nan=False), count=tables.CHECKED,
-            error_ez=table["error"]["ez"], error_ex=table["error"]["ex"], **table["limits"]))
+            window=WINDOW if table["window"] else "", error_ez=table["error"]["ez"], error_ex=table["error"]["ex"], **table["limits"]))
     return pages

@@ -7,6 +7,7 @@ import contextlib
 import io
 import json
 import os
+import pprint
 import warnings
 
 import restitute
@@ -23,7 +24,12 @@ def _run(source, names, label):
         exec(compile(tree, label, "exec"), names)
         value = eval(compile(ast.Expression(last.value), label, "eval"), names) if last else None
     said = [f"{type(one.message).__name__}: {one.message}" for one in caught]
-    return printed.getvalue() + "\n".join(said + ([repr(value)] if value is not None else []))
+    return printed.getvalue() + "\n".join(said + ([_shown(value)] if value is not None else []))
+
+
+def _shown(value):
+    """A value as a notebook shows it, long lists and dictionaries over several lines."""
+    return pprint.pformat(value, width=96, sort_dicts=False) if isinstance(value, (list, dict)) else repr(value)
 
 
 def page_of(path, folder):
@@ -46,7 +52,7 @@ def page_of(path, folder):
             parts.append(f"```python\n{source}\n```")
             out = _run(source, names, path.name)
             if out.strip():
-                parts.append(f"```text\n{out.rstrip()}\n```")
+                parts.append(f"```none\n{out.rstrip()}\n```")
             for number in pyplot.get_fignums():
                 drawn += 1
                 plot.save(pyplot.figure(number), folder / f"{stem}-{drawn}.svg")

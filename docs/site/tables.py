@@ -119,9 +119,16 @@ def table_of(material):
             "ranges": RANGES,
             "limits": {key: getattr(head_on.settings, f"{key}_limit")
                        for key in ("speed", "radius", "displacement")},
+            "window": window_of(material),
         }
     table["error"] = measured_errors(material, table)
     return table
+
+
+def window_of(material):
+    """The contact times in which the material was measured; None if they are not known."""
+    low, high = getattr(material, "window", (0.0, np.inf))
+    return [low, high] if low > 0 and np.isfinite(high) else None
 
 
 def _row(values, last, u):
@@ -170,5 +177,11 @@ def measured_errors(material, table, count=CHECKED):
         warnings.simplefilter("ignore", restitute.ModelLimitWarning)
         exact = restitute.pair(material, method="sync", tolerance=1e-4, threads=0, **impacts)
     ez, ex = look_up(table, **impacts)
-    return {"ez": float(f"{1.5 * np.max(np.abs(ez - exact.ez)) + 1e-4:.2g}"),
-            "ex": float(f"{1.5 * np.max(np.abs(ex - exact.ex)) + 1e-4:.2g}")}
+    return {"ez": _up(1.5 * np.max(np.abs(ez - exact.ez)) + exact.settings.tolerance),
+            "ex": _up(1.5 * np.max(np.abs(ex - exact.ex)) + exact.settings.tolerance)}
+
+
+def _up(value):
+    """The next number of one digit."""
+    unit = 10.0 ** np.floor(np.log10(value))
+    return float(f"{np.ceil(value / unit) * unit:.1g}")
