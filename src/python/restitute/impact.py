@@ -14,6 +14,9 @@ from restitute.solving import OPTIONS, Solved, options, solve_impacts
 
 __all__ = ["LIMITS", "Pairs", "pair", "solve"]
 
+#: Error of ez over a_max/R where the sphere deforms (docs/soft_contacts.md).
+SOFT_CONTACT_ERROR = 0.18
+
 #: Limits of the model: flag, name, its option, what it bounds, in words.
 LIMITS = (
     (1, "FAST", "speed_limit", "speed_ratio", "speed above {:g} of the shear wave speed"),
@@ -110,7 +113,10 @@ class Pairs(Columns):
             if np.any(hit):
                 most = np.max(np.abs(np.ravel(getattr(self, member))[hit]))
                 text = words.format(getattr(self.settings, option))
-                passed.append((name, int(np.sum(hit)), _of(hit, self.shape, text, f"{most:.3g}")))
+                worst = f"{most:.3g}"
+                if name == "LARGE_CONTACT":
+                    worst += f" (ez known to +-{min(SOFT_CONTACT_ERROR * most, 1):.1g})"
+                passed.append((name, int(np.sum(hit)), _of(hit, self.shape, text, worst)))
         return passed
 
 
