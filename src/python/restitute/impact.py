@@ -105,7 +105,8 @@ class Pairs(Columns):
         ...                  speed_limit=1, radius_limit=0.2)
         >>> balls.limits()
         [('LARGE_CONTACT', 1,
-          "1 of 2 impacts: contact radius above 0.2 of the sphere's, up to 0.33")]
+          "1 of 2 impacts: contact radius above 0.2 of the sphere's, up to 0.33
+          (ez is known to about +-0.06)")]
         """
         passed, flags = [], np.ravel(self.flags)
         for bit, name, option, member, words in LIMITS:
@@ -115,9 +116,18 @@ class Pairs(Columns):
                 text = words.format(getattr(self.settings, option))
                 worst = f"{most:.3g}"
                 if name == "LARGE_CONTACT":
-                    worst += f" (ez known to +-{min(SOFT_CONTACT_ERROR * most, 1):.1g})"
+                    worst += f" ({soft_contact(most)})"
                 passed.append((name, int(np.sum(hit)), _of(hit, self.shape, text, worst)))
         return passed
+
+
+def soft_contact(ratio: float) -> str:
+    """What a large ratio of contact radius to radius costs, in words.
+
+    >>> soft_contact(0.34)
+    'ez is known to about +-0.06'
+    """
+    return f"ez is known to about +-{min(SOFT_CONTACT_ERROR * ratio, 1):.1g}"
 
 
 def _of(hit, shape, text, most):

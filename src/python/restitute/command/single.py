@@ -186,7 +186,7 @@ def _lengths(impact, result, numbers):
 
 def _limits(impact, result):
     """How far the scene strains the model, and what of it passes a limit, in words."""
-    from restitute.impact import LIMITS
+    from restitute.impact import LIMITS, soft_contact
 
     if impact.kind != "scene":
         return
@@ -195,7 +195,8 @@ def _limits(impact, result):
     for label, (flag, _, option, member, _) in zip(labels, LIMITS):
         limit = getattr(result.settings, option)
         yield f"  {label:22} {getattr(result, member):<12.3g} (limit {limit:g})"
-        yield from (f"    passed: {text}" for text in _flags(result.flags & flag))
+        cost = f": {soft_contact(result.radius_ratio)}" if member == "radius_ratio" else ""
+        yield from (f"    passed: {text}{cost}" for text in _flags(result.flags & flag))
 
 
 def _flags(flags):
