@@ -25,7 +25,7 @@ SECTIONS = (
      ("README.md", "docs/install.md", "docs/first_ten_minutes.md", "docs/tutorial.md",
       "docs/which_method.md", "docs/coming_from.md", "docs/questions.md", "docs/README.md")),
     ("Materials", "Solids by name, each with a figure to try radius, speed, angle and friction.",
-     ("docs/materials.md", "examples/materials/README.md", "materials/*")),
+     ("docs/materials.md", "materials/*")),
     ("Reference", "Every name and every option.",
      ("reference/python.md", "reference/c.md", "docs/manual.md", "docs/fortran.md",
       "docs/conventions.md", "CHANGELOG.md", "CONTRIBUTING.md")),

@@ -2,7 +2,7 @@
  * How a granular gas cools, by what its spheres are made of: five gases by DSMC (gas.h), the
  * impacts from tables, beside the theory where there is one (theory.h).
  *
- *   granular_gas POLYMER [SPHERES [OUTPUT.csv]]     POLYMER: examples/materials/polyisobutylene.json; default 100000
+ *   granular_gas POLYMER [SPHERES [OUTPUT.csv]]     POLYMER: src/materials/polyisobutylene.json; default 100000
  *
  * Prints what it found and by how much it may be off; exit status 1 if something is off by more. */
 #include "gas.h"

@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 RESTITUTE = os.environ["RESTITUTE"]
-MATERIALS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "materials")
+MATERIALS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "src", "materials")
 
 
 def check(is_so, message):

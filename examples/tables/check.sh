@@ -12,7 +12,7 @@ command=$1 examples=$2 python=$3
     echo "skipped: h5py is not installed: the table is not read from Python"
     exit 77
 }
-"$command" table build --material "$examples/materials/polyisobutylene.json" --radius 0.005 --density 7800 --friction 0.3 \
+"$command" table build --material "$examples/../src/materials/polyisobutylene.json" --radius 0.005 --density 7800 --friction 0.3 \
     --speed 0.01:10 --tolerance 1e-3 --output tables_example.h5
 # Where in read.txt and query.txt ez and ex differ by more than $2
 compare() {

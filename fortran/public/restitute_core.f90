@@ -11,6 +11,7 @@ module restitute_core_module
   public :: restitute_material_kelvin_voigt, restitute_material_maxwell, restitute_material_effective
   public :: restitute_material_dundurs, restitute_material_destroy, restitute_material_modulus
   public :: restitute_material_poisson_ratio, restitute_material_terms, restitute_material_series
+  public :: restitute_material_set_window, restitute_material_window, restitute_material_shifted
   public :: restitute_scene_numbers, restitute_method_euler, restitute_method_sync, restitute_method_name
   public :: restitute_solver_create, restitute_solver_destroy, restitute_history_arrays
   public :: restitute_solve, restitute_solve_scene, restitute_solve_many, restitute_solve_scene_many
@@ -161,6 +162,31 @@ module restitute_core_module
       real(c_double), intent(inout), optional :: equilibrium_modulus, parallel_viscosity, relaxation_time(*), modulus(*)
       type(restitute_error), intent(inout), optional :: error
     end function c_material_series
+
+    integer(c_int) function c_material_set_window(material, shortest, longest, error) &
+      bind(c, name="restitute_material_set_window")
+      import
+      type(c_ptr), value :: material
+      real(c_double), value :: shortest, longest
+      type(restitute_error), intent(inout), optional :: error
+    end function c_material_set_window
+
+    integer(c_int) function c_material_window(material, shortest, longest, error) &
+      bind(c, name="restitute_material_window")
+      import
+      type(c_ptr), value :: material
+      real(c_double), intent(inout), optional :: shortest, longest
+      type(restitute_error), intent(inout), optional :: error
+    end function c_material_window
+
+    integer(c_int) function c_material_shifted(material, time_shift, shifted, error) &
+      bind(c, name="restitute_material_shifted")
+      import
+      type(c_ptr), value :: material
+      real(c_double), value :: time_shift
+      type(restitute_material), intent(inout) :: shifted
+      type(restitute_error), intent(inout), optional :: error
+    end function c_material_shifted
 
     type(c_ptr) function c_method_euler() bind(c, name="restitute_method_euler")
       import
@@ -350,6 +376,28 @@ contains
     if (present(relaxation_time)) call move_alloc(tau, relaxation_time)
     if (present(modulus)) call move_alloc(g, modulus)
   end function restitute_material_series
+
+  integer(c_int) function restitute_material_set_window(material, shortest, longest, error) result(status)
+    type(restitute_material), intent(in) :: material
+    real(c_double), intent(in) :: shortest, longest
+    type(restitute_error), intent(inout), optional :: error
+    status = c_material_set_window(material%address, shortest, longest, error)
+  end function restitute_material_set_window
+
+  integer(c_int) function restitute_material_window(material, shortest, longest, error) result(status)
+    type(restitute_material), intent(in) :: material
+    real(c_double), intent(inout), optional :: shortest, longest
+    type(restitute_error), intent(inout), optional :: error
+    status = c_material_window(material%address, shortest, longest, error)
+  end function restitute_material_window
+
+  integer(c_int) function restitute_material_shifted(material, time_shift, shifted, error) result(status)
+    type(restitute_material), intent(in) :: material
+    real(c_double), intent(in) :: time_shift
+    type(restitute_material), intent(inout) :: shifted
+    type(restitute_error), intent(inout), optional :: error
+    status = c_material_shifted(material%address, time_shift, shifted, error)
+  end function restitute_material_shifted
 
   ! ---- methods and solvers
 

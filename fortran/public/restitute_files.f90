@@ -6,14 +6,16 @@
 !>     info = restitute_material_info()
 !>     status = restitute_material_read("polyisobutylene.json", material, info, error)
 !>     print *, restitute_text(info%name), info%density
+!>     status = restitute_material_by_name("polyisobutylene", material, info, error)
 !>
-!> Blanks at the end of a path are not part of it.
+!> Blanks at the end of a path or a name are not part of it.
 module restitute_files_module
-  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_int64_t, c_null_char, c_size_t, c_sizeof
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_int64_t, c_null_char, c_ptr, c_size_t, c_sizeof
   use restitute, only: restitute_error, restitute_material
   implicit none (type, external)
   private
-  public :: restitute_material_info, restitute_material_read
+  public :: restitute_material_info, restitute_material_read, restitute_material_by_name
+  public :: restitute_material_at_temperature
 
   !> What a material file says beside the solid itself.
   type, bind(c) :: restitute_material_info
@@ -21,6 +23,7 @@ module restitute_files_module
     character(kind=c_char) :: name(128) = c_null_char, source(512) = c_null_char, model(32) = c_null_char
     real(c_double) :: density = 0
     integer(c_int64_t) :: fingerprint = 0
+    real(c_double) :: temperature = 0, wlf_c1 = 0, wlf_c2 = 0, wlf_reference = 0, window(2) = 0
   end type restitute_material_info
 
   interface restitute_material_info
@@ -41,6 +44,24 @@ module restitute_files_module
       type(restitute_material_info), intent(inout), optional :: info
       type(restitute_error), intent(inout), optional :: error
     end function c_read
+
+    integer(c_int) function c_by_name(name, material, info, error) bind(c, name="restitute_material_by_name")
+      import
+      character(kind=c_char), intent(in) :: name(*)
+      type(restitute_material), intent(inout) :: material
+      type(restitute_material_info), intent(inout), optional :: info
+      type(restitute_error), intent(inout), optional :: error
+    end function c_by_name
+
+    integer(c_int) function c_at_temperature(material, info, temperature, shifted, error) &
+      bind(c, name="restitute_material_at_temperature")
+      import
+      type(c_ptr), value :: material
+      type(restitute_material_info), intent(in) :: info
+      real(c_double), value :: temperature
+      type(restitute_material), intent(inout) :: shifted
+      type(restitute_error), intent(inout), optional :: error
+    end function c_at_temperature
   end interface
 
 contains
@@ -56,4 +77,21 @@ contains
     type(restitute_error), intent(inout), optional :: error
     status = c_read(trim(path)//c_null_char, material, info, error)
   end function restitute_material_read
+
+  integer(c_int) function restitute_material_by_name(name, material, info, error) result(status)
+    character(len=*), intent(in) :: name
+    type(restitute_material), intent(inout) :: material
+    type(restitute_material_info), intent(inout), optional :: info
+    type(restitute_error), intent(inout), optional :: error
+    status = c_by_name(trim(name)//c_null_char, material, info, error)
+  end function restitute_material_by_name
+
+  integer(c_int) function restitute_material_at_temperature(material, info, temperature, shifted, error) result(status)
+    type(restitute_material), intent(in) :: material
+    type(restitute_material_info), intent(in) :: info
+    real(c_double), intent(in) :: temperature
+    type(restitute_material), intent(inout) :: shifted
+    type(restitute_error), intent(inout), optional :: error
+    status = c_at_temperature(material%address, info, temperature, shifted, error)
+  end function restitute_material_at_temperature
 end module restitute_files_module

@@ -36,7 +36,8 @@ module restitute_types_module
     RESTITUTE_FLAG_FAST = 1, &
     RESTITUTE_FLAG_LARGE_CONTACT = 2, &
     RESTITUTE_FLAG_LONG_SLIDE = 4, &
-    RESTITUTE_FLAG_COUPLED = 8
+    RESTITUTE_FLAG_COUPLED = 8, &
+    RESTITUTE_FLAG_UNMEASURED = 16
 
   !> Which bodies deform.
   integer(c_int), parameter, public :: RESTITUTE_ONE_BODY_DEFORMS = 1, RESTITUTE_BOTH_BODIES_DEFORM = 2

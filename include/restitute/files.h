@@ -34,9 +34,14 @@ typedef struct restitute_material_info {
     uint64_t
         fingerprint;    /**< of all bytes read (FNV-1a, of a JSON and its CSV combined): another
                              value, another content */
+    double temperature; /**< "temperature_c": that of the constants, degrees Celsius; NaN if the
+                             file gives none */
+    double wlf_c1, wlf_c2, wlf_reference; /**< "wlf_c1", "wlf_c2_k" (K), "wlf_reference_c" (degrees
+                             Celsius); NaN likewise. log10 a_T = -c1 (T - T0)/(c2 + T - T0) */
+    double window[2];   /**< "window_s": the times in which it was measured; (0, infinity) likewise */
 } restitute_material_info;
 
-/** Prepare with empty texts and density NaN. */
+/** Prepare with empty texts, window (0, infinity) and all else NaN. */
 RESTITUTE_INIT(RESTITUTE_SINCE_0_1, material_info)
 
 /** Read a material, by the extension of the file.
@@ -48,6 +53,8 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, material_info)
  *
  *      name           text, required, 1 to 127 bytes          source         text, 1 to 511 bytes
  *      poisson_ratio  required, in [0, 0.5]                   density_kg_m3  > 0
+ *      temperature_c  that of the constants, > -273.15        window_s       [shortest, longest], > 0
+ *      wlf_c1, wlf_c2_k, wlf_reference_c                      all or none, beside temperature_c
  *      model          required; it decides which further keys are required:
  *        elastic         modulus_pa
  *        standard_solid  modulus1_pa, modulus2_pa, viscosity_pa_s
@@ -60,7 +67,8 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, material_info)
  *
  *  All moduli are shear moduli, G = E/(2(1 + nu)); ranges are those of @ref
  *  restitute_material_prony. Unknown and repeated keys are refused. Both files are regular ones of
- *  at most 64 MiB: a FIFO, a device and what is larger are refused by name.
+ *  at most 64 MiB: a FIFO, a device and what is larger are refused by name. The window becomes that
+ *  of the material, @ref restitute_material_set_window.
  *
  *  @param path      the file
  *  @param material  the new material, for @ref restitute_material_destroy
@@ -73,6 +81,34 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, material_info)
  *      restitute_material_read("polyisobutylene.json", &rubber, &info, &error); // info.density */
 RESTITUTE_SINCE_0_1 int restitute_material_read(const char *path, restitute_material **material,
     restitute_material_info *info, restitute_error *error);
+
+/** Read one of the material files that are installed with the library; docs/materials.md lists
+ *  them.
+ *
+ *  It is looked for in the folder that the environment variable RESTITUTE_MATERIALS names, or else
+ *  in share/restitute/materials beside this library.
+ *
+ *  @param name  as "polyisobutylene": the name of the file without .json
+ *  @return as @ref restitute_material_read; ERROR_DOMAIN for an unknown name: `error` lists the
+ *          known ones; ERROR_FILE if there is no such folder
+ *
+ *      restitute_material_by_name("steel", &steel, &info, &error);          // info.density */
+RESTITUTE_SINCE_0_1 int restitute_material_by_name(const char *name, restitute_material **material,
+    restitute_material_info *info, restitute_error *error);
+
+/** A material at another temperature than that of its constants, by the equation of Williams,
+ *  Landel and Ferry: times, viscosities and window times a_T(temperature)/a_T(info->temperature).
+ *
+ *  @param info         of the material, from @ref restitute_material_read or by name
+ *  @param temperature  degrees Celsius, above wlf_reference - wlf_c2
+ *  @param shifted      the new material
+ *  @return ERROR_DOMAIN also where the file has no constants for the shift; what @ref
+ *          restitute_material_shifted returns; ERROR_STRUCT_SIZE
+ *
+ *      restitute_material_at_temperature(rubber, &info, 40, &warm_rubber, &error); */
+RESTITUTE_SINCE_0_1 int restitute_material_at_temperature(const restitute_material *material,
+    const restitute_material_info *info, double temperature, restitute_material **shifted,
+    restitute_error *error);
 
 #ifdef __cplusplus
 }

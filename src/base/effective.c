@@ -137,6 +137,8 @@ int restitute_material_effective(const restitute_material *material1, const rest
     if (status) return rst_report(error, status, "effective solid of material1 and material2: %s", why.message);
     made->beta = beta;
     made->is_effective = 1;
+    made->window[0] = fmax(material1->window[0], material2->window[0]);
+    made->window[1] = fmin(material1->window[1], material2->window[1]);
     *effective = made;
     return rst_done(error);
 }

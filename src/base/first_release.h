@@ -34,7 +34,7 @@
 #define RST_LAST_bem_snapshot stick
 
 /* files.h, fit.h */
-#define RST_LAST_material_info fingerprint
+#define RST_LAST_material_info window
 #define RST_LAST_fit_point sigma_contact_time
 #define RST_LAST_fit_options interrupted_data
 #define RST_LAST_fit_result material

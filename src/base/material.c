@@ -88,6 +88,8 @@ int restitute_material_prony(double equilibrium_modulus, double parallel_viscosi
     m->nu = poisson_ratio;
     m->beta = 0;
     m->is_effective = 0;
+    m->window[0] = 0;
+    m->window[1] = INFINITY;
     m->n_terms = n_terms;
     m->tau = m->values;
     m->g = m->values + n_terms;
@@ -170,5 +172,50 @@ int restitute_material_series(const restitute_material *material, double *equili
         if (relaxation_time) relaxation_time[k] = material->tau[k];
         if (modulus) modulus[k] = material->g[k];
     }
+    return rst_done(error);
+}
+
+int restitute_material_set_window(restitute_material *material, double shortest, double longest, restitute_error *error)
+{
+    if (!material) return rst_report(error, RESTITUTE_ERROR_NULL, "material is NULL");
+    if (!(shortest >= 0 && longest > shortest))
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                          "window from %g to %g s: must begin at >= 0 and end later than it begins", shortest, longest);
+    material->window[0] = shortest;
+    material->window[1] = longest;
+    return rst_done(error);
+}
+
+int restitute_material_window(const restitute_material *material, double *shortest, double *longest,
+                              restitute_error *error)
+{
+    if (!material) return rst_report(error, RESTITUTE_ERROR_NULL, "material is NULL");
+    if (shortest) *shortest = material->window[0];
+    if (longest) *longest = material->window[1];
+    return rst_done(error);
+}
+
+int restitute_material_shifted(const restitute_material *material, double time_shift, restitute_material **shifted,
+                               restitute_error *error)
+{
+    if (!material || !shifted)
+        return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", material ? "shifted" : "material");
+    int status = rst_check_range(time_shift, 1e-100, 1e100, "time_shift", error);
+    if (status) return status;
+    double *tau = malloc((material->n_terms + 1) * sizeof *tau);
+    if (!tau) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu terms", material->n_terms);
+    for (size_t k = 0; k < material->n_terms; k++)
+        tau[k] = time_shift * material->tau[k];
+    restitute_material *made;
+    restitute_error why;
+    status = restitute_material_prony(material->g_inf, time_shift * material->eta, material->n_terms, tau, material->g,
+                                      material->nu, &made, &why);
+    free(tau);
+    if (status) return rst_report(error, status, "with time_shift = %g: %s", time_shift, why.message);
+    made->beta = material->beta;
+    made->is_effective = material->is_effective;
+    for (int i = 0; i < 2; i++)
+        made->window[i] = time_shift * material->window[i];
+    *shifted = made;
     return rst_done(error);
 }

@@ -14,16 +14,9 @@
 #include "base/sized.h"
 #include "files/file_text.h"
 #include "files/json_place.h"
+#include "files/json_values.h"
+#include "files/measured.h"
 #include "files/prony_terms.h"
-
-/* A JSON material file while it is read. */
-struct material_file {
-    const char *path, *name; /* name: the path as it appears in messages */
-    const char *text;
-    json_t *root;
-    uint64_t fingerprint;
-    restitute_error *error;
-};
 
 /* The content of a file, before it becomes a material. */
 struct material_content {
@@ -58,65 +51,18 @@ static const struct model {
 };
 enum { MODEL_COUNT = sizeof models / sizeof models[0], NUMBER_COUNT = sizeof number_keys / sizeof number_keys[0] };
 
-RST_DEFAULTS(material_info, .density = NAN)
+RST_DEFAULTS(material_info, .density = NAN, .temperature = NAN, .wlf_c1 = NAN, .wlf_c2 = NAN, .wlf_reference = NAN,
+             .window = {0, INFINITY})
 
-/* Copy a text that is to fit into `size` bytes. */
-static int copy_text(const struct material_file *file, const char *key, int required, char *target, size_t size)
+static int read_poisson_ratio(const struct json_file *file, double *poisson_ratio)
 {
-    const json_t *value = json_object_get(file->root, key);
-    if (!value && !required) return RESTITUTE_OK;
-    if (!value) return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s: no key \"%s\"", file->name, key);
-    const size_t line = rst_json_line_of_key(file->text, key);
-    if (!json_is_string(value))
-        return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: \"%s\" must be text", file->name, line,
-                          key);
-    const size_t length = json_string_length(value);
-    if (length == 0 || length >= size || strlen(json_string_value(value)) != length)
-        return rst_report(file->error, RESTITUTE_ERROR_DOMAIN,
-                          "%s line %zu: \"%s\" has %zu bytes: must have 1 to %zu, "
-                          "none of them zero",
-                          file->name, line, key, length, size - 1);
-    memcpy(target, json_string_value(value), length + 1);
-    return RESTITUTE_OK;
-}
-
-/* Read a number from an object; a missing one leaves `number` as it is, unless it is required. */
-static int read_number(const struct material_file *file, const json_t *object, const char *key, size_t line,
-                       int required, double *number)
-{
-    const json_t *value = json_object_get(object, key);
-    if (!value && !required) return RESTITUTE_OK;
-    if (!value)
-        return line ? rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: no key \"%s\"", file->name, line,
-                                 key)
-                    : rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s: no key \"%s\"", file->name, key);
-    if (!json_is_number(value))
-        return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: \"%s\" must be a number", file->name,
-                          line ? line : rst_json_line_of_key(file->text, key), key);
-    *number = json_number_value(value);
-    return RESTITUTE_OK;
-}
-
-/* A number of the outermost object that must be finite and > 0, or >= 0. */
-static int read_positive(const struct material_file *file, const char *key, int required, int zero_allowed,
-                         double *number)
-{
-    const int status = read_number(file, file->root, key, 0, required, number);
-    if (status != RESTITUTE_OK || !json_object_get(file->root, key)) return status;
-    if (isfinite(*number) && (*number > 0 || (zero_allowed && *number == 0))) return RESTITUTE_OK;
-    return rst_report(file->error, RESTITUTE_ERROR_DOMAIN, "%s line %zu: %s = %.15g: must be finite and %s 0",
-                      file->name, rst_json_line_of_key(file->text, key), key, *number, zero_allowed ? ">=" : ">");
-}
-
-static int read_poisson_ratio(const struct material_file *file, double *poisson_ratio)
-{
-    const int status = read_number(file, file->root, "poisson_ratio", 0, 1, poisson_ratio);
+    const int status = rst_json_number(file, file->root, "poisson_ratio", 0, 1, poisson_ratio);
     if (status != RESTITUTE_OK || (*poisson_ratio >= 0 && *poisson_ratio <= 0.5)) return status;
     return rst_report(file->error, RESTITUTE_ERROR_DOMAIN, "%s line %zu: poisson_ratio = %.15g: must be in [0, 0.5]",
                       file->name, rst_json_line_of_key(file->text, "poisson_ratio"), *poisson_ratio);
 }
 
-static const struct model *find_model(const struct material_file *file, const char *name)
+static const struct model *find_model(const struct json_file *file, const char *name)
 {
     for (int i = 0; i < MODEL_COUNT; i++)
         if (strcmp(models[i].name, name) == 0) return &models[i];
@@ -146,7 +92,7 @@ static int is_allowed(const struct model *model, const char *key)
         if (length == strcspn(word, ",") && strncmp(key, word, length) == 0) return 1;
     for (int i = 0; i < NUMBER_COUNT; i++)
         if (strcmp(key, number_keys[i].key) == 0) return has_number(model, i);
-    return 0;
+    return rst_is_measured_key(key);
 }
 
 /* ", modulus_pa, ..." */
@@ -154,12 +100,11 @@ static const char *numbers_of(const struct model *model, char *text, size_t size
 {
     text[0] = '\0';
     for (int i = 0; i < NUMBER_COUNT; i++)
-        if (has_number(model, i))
-            snprintf(text + strlen(text), size - strlen(text), ", %s", number_keys[i].key);
+        if (has_number(model, i)) snprintf(text + strlen(text), size - strlen(text), ", %s", number_keys[i].key);
     return text;
 }
 
-static int refuse_unknown_keys(const struct material_file *file, const struct model *model)
+static int refuse_unknown_keys(const struct json_file *file, const struct model *model)
 {
     const char *key;
     json_t *value;
@@ -168,15 +113,15 @@ static int refuse_unknown_keys(const struct material_file *file, const struct mo
         char numbers[100];
         if (!is_allowed(model, key))
             return rst_report(file->error, RESTITUTE_ERROR_FORMAT,
-                              "%s line %zu: unknown key \"%.32s\" for model %s: must be among %s%s", file->name,
-                              rst_json_line_of_key(file->text, key), key, model->name, words_of(model),
+                              "%s line %zu: unknown key \"%.32s\" for model %s: must be among %s%s, " RST_MEASURED_KEYS,
+                              file->name, rst_json_line_of_key(file->text, key), key, model->name, words_of(model),
                               numbers_of(model, numbers, sizeof numbers));
     }
     return RESTITUTE_OK;
 }
 
 /* One object of "terms": exactly tau_s and modulus_pa. */
-static int read_term(const struct material_file *file, const json_t *term, size_t line, double *time, double *modulus)
+static int read_term(const struct json_file *file, const json_t *term, size_t line, double *time, double *modulus)
 {
     if (!json_is_object(term))
         return rst_report(file->error, RESTITUTE_ERROR_FORMAT,
@@ -191,11 +136,11 @@ static int read_term(const struct material_file *file, const json_t *term, size_
             return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s line %zu: unknown key \"%.64s\" in a term",
                               file->name, line, key);
     }
-    const int status = read_number(file, term, "tau_s", line, 1, time);
-    return status == RESTITUTE_OK ? read_number(file, term, "modulus_pa", line, 1, modulus) : status;
+    const int status = rst_json_number(file, term, "tau_s", line, 1, time);
+    return status == RESTITUTE_OK ? rst_json_number(file, term, "modulus_pa", line, 1, modulus) : status;
 }
 
-static int read_term_list(const struct material_file *file, const json_t *list, struct prony_terms *terms)
+static int read_term_list(const struct json_file *file, const json_t *list, struct prony_terms *terms)
 {
     const size_t line = rst_json_line_of_key(file->text, "terms");
     if (!json_is_array(list) || json_array_size(list) == 0)
@@ -229,7 +174,7 @@ static char *path_beside(const char *path, const char *name)
     return joined;
 }
 
-static int read_terms(struct material_file *file, struct prony_terms *terms)
+static int read_terms(struct json_file *file, struct prony_terms *terms)
 {
     const json_t *list = json_object_get(file->root, "terms");
     if (!list == !json_object_get(file->root, "prony_csv"))
@@ -238,7 +183,7 @@ static int read_terms(struct material_file *file, struct prony_terms *terms)
                           list ? ", not both" : "");
     if (list) return read_term_list(file, list, terms);
     char name[1024];
-    int status = copy_text(file, "prony_csv", 1, name, sizeof name);
+    int status = rst_json_copy_text(file, "prony_csv", 1, name, sizeof name);
     if (status != RESTITUTE_OK) return status;
     char *path = path_beside(file->path, name);
     if (!path) return rst_report(file->error, RESTITUTE_ERROR_MEMORY, "%s: out of memory", file->name);
@@ -249,24 +194,25 @@ static int read_terms(struct material_file *file, struct prony_terms *terms)
     return status;
 }
 
-static int read_content(const struct material_file *file, struct material_content *content, const struct model **model)
+static int read_content(const struct json_file *file, struct material_content *content, const struct model **model)
 {
     restitute_material_info *info = &content->info;
-    int status = copy_text(file, "model", 1, info->model, sizeof info->model);
+    int status = rst_json_copy_text(file, "model", 1, info->model, sizeof info->model);
     if (status == RESTITUTE_OK && !(*model = find_model(file, info->model))) status = RESTITUTE_ERROR_FORMAT;
     if (status == RESTITUTE_OK) status = refuse_unknown_keys(file, *model);
-    if (status == RESTITUTE_OK) status = copy_text(file, "name", 1, info->name, sizeof info->name);
-    if (status == RESTITUTE_OK) status = copy_text(file, "source", 0, info->source, sizeof info->source);
+    if (status == RESTITUTE_OK) status = rst_json_copy_text(file, "name", 1, info->name, sizeof info->name);
+    if (status == RESTITUTE_OK) status = rst_json_copy_text(file, "source", 0, info->source, sizeof info->source);
     if (status == RESTITUTE_OK) status = read_poisson_ratio(file, &content->poisson_ratio);
-    if (status == RESTITUTE_OK) status = read_positive(file, "density_kg_m3", 0, 0, &info->density);
+    if (status == RESTITUTE_OK) status = rst_json_positive(file, "density_kg_m3", 0, 0, &info->density);
+    if (status == RESTITUTE_OK) status = rst_read_measured(file, info);
     for (int i = 0; i < NUMBER_COUNT && status == RESTITUTE_OK; i++)
-        status = read_positive(file, number_keys[i].key, ((*model)->required & BIT(i)) != 0,
-                               number_keys[i].zero_allowed, &content->number[i]);
+        status = rst_json_positive(file, number_keys[i].key, ((*model)->required & BIT(i)) != 0,
+                                   number_keys[i].zero_allowed, &content->number[i]);
     return status;
 }
 
-static int create_prony(struct material_file *file, const struct material_content *content,
-                        restitute_material **material, restitute_error *why)
+static int create_prony(struct json_file *file, const struct material_content *content, restitute_material **material,
+                        restitute_error *why)
 {
     struct prony_terms terms;
     int status = read_terms(file, &terms);
@@ -282,8 +228,8 @@ static int create_prony(struct material_file *file, const struct material_conten
 }
 
 /* The library may still refuse combinations, such as tau = viscosity/modulus2 beyond a double. */
-static int create_material(struct material_file *file, const struct model *model,
-                           const struct material_content *content, restitute_material **material)
+static int create_material(struct json_file *file, const struct model *model, const struct material_content *content,
+                           restitute_material **material)
 {
     const double *number = content->number, nu = content->poisson_ratio;
     restitute_error why;
@@ -303,7 +249,7 @@ static int create_material(struct material_file *file, const struct model *model
     return status < 0 ? status : rst_done(file->error);
 }
 
-static int material_from_root(struct material_file *file, restitute_material **material, restitute_material_info *info)
+static int material_from_root(struct json_file *file, restitute_material **material, restitute_material_info *info)
 {
     if (!json_is_object(file->root))
         return rst_report(file->error, RESTITUTE_ERROR_FORMAT, "%s: must be one JSON object, { .. }", file->name);
@@ -313,6 +259,7 @@ static int material_from_root(struct material_file *file, restitute_material **m
     int status = read_content(file, &content, &model);
     if (status == RESTITUTE_OK) status = create_material(file, model, &content, material);
     if (status != RESTITUTE_OK) return status;
+    restitute_material_set_window(*material, content.info.window[0], content.info.window[1], NULL); /* checked */
     *info = content.info;
     info->fingerprint = file->fingerprint;
     return status;
@@ -325,7 +272,7 @@ static int read_json_material(const char *path, restitute_material **material, r
     int status = rst_file_text_read(path, &text, error);
     if (status != RESTITUTE_OK) return status;
     json_error_t reason;
-    struct material_file file = {path, rst_file_name_for_message(path), text.bytes, NULL, 0, error};
+    struct json_file file = {path, rst_file_name_for_message(path), text.bytes, NULL, 0, error};
     file.fingerprint = rst_file_text_fingerprint(&text, FILE_FINGERPRINT_START);
     errno = 0; /* if memory runs out, Jansson reports nothing, or a syntax error */
     const size_t mark = strncmp(text.bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; /* of byte order, by Windows */

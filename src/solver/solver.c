@@ -337,7 +337,7 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
         status = judge_tolerance(&problem, &found, status, error);
     else if (status == RESTITUTE_OK)
         status = rst_report(error, RESTITUTE_NO_REBOUND, "%s", restitute_status_text(RESTITUTE_NO_REBOUND));
-    rst_name_limits(&solver->options, &found, error);
+    rst_name_limits(&solver->options, input->scene, &found, error);
     return status;
 }
 

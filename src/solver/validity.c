@@ -52,7 +52,7 @@ void rst_judge_validity(const restitute_options *options, const restitute_scene 
     result->flags = 0;
     if (!scene) return;
     double depth = outcome->max_indentation * numbers->length_z;
-    double radius = outcome->max_contact_radius * numbers->length_x;
+    double radius = outcome->max_contact_radius * numbers->length_x, shortest, longest;
     result->speed_ratio = speed_ratio(scene, numbers->time);
     result->radius_ratio = radius / numbers->radius;
     result->displacement_ratio = fabs(rst_sliding_speed(scene)) * (depth / scene->normal_speed) / radius;
@@ -61,14 +61,19 @@ void rst_judge_validity(const restitute_options *options, const restitute_scene 
     if (!(result->radius_ratio <= options->radius_limit)) result->flags |= RESTITUTE_FLAG_LARGE_CONTACT;
     if (!(result->displacement_ratio <= options->displacement_limit)) result->flags |= RESTITUTE_FLAG_LONG_SLIDE;
     if (!(fabs(result->dundurs_beta) <= options->dundurs_limit)) result->flags |= RESTITUTE_FLAG_COUPLED;
+    restitute_material_window(scene->material, &shortest, &longest, NULL);
+    if (!(result->contact_time >= shortest && result->contact_time <= longest))
+        result->flags |= RESTITUTE_FLAG_UNMEASURED;
 }
 
 /* Error of e_z over a_max/R if the sphere is what deforms: docs/soft_contacts.md, from the target
  * that its last section names. */
 static const double soft_contact_error = 0.18;
 
-void rst_name_limits(const restitute_options *options, const restitute_result *result, restitute_error *error)
+void rst_name_limits(const restitute_options *options, const restitute_scene *scene, const restitute_result *result,
+                     restitute_error *error)
 {
+    double shortest, longest;
     const struct {
         const char *name;
         double value, limit;
@@ -85,4 +90,8 @@ void rst_name_limits(const restitute_options *options, const restitute_result *r
             snprintf(cost, sizeof cost, " (ez is known to about +-%.1g)", fmin(soft_contact_error * limits[i].value, 1));
         rst_remark(error, "%s = %.3g exceeds the limit %g%s", limits[i].name, limits[i].value, limits[i].limit, cost);
     }
+    if (!(result->flags & RESTITUTE_FLAG_UNMEASURED)) return;
+    restitute_material_window(scene->material, &shortest, &longest, NULL);
+    rst_remark(error, "contact time %.3g s is outside the window %.3g to %.3g s in which the material was measured",
+               result->contact_time, shortest, longest);
 }

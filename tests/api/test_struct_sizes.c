@@ -200,7 +200,7 @@ static void files(void **state)
 {
     restitute_material *material = NULL;
     (void)state;
-    REFUSED(restitute_material_read(RESTITUTE_SOURCE_DIR "/examples/materials/steel.json", &material, with.old,
+    REFUSED(restitute_material_read(RESTITUTE_SOURCE_DIR "/src/materials/steel.json", &material, with.old,
                                     &with.error));
 }
 #endif

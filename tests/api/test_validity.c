@@ -107,10 +107,56 @@ static void no_modulus_no_waves(void **state)
     restitute_material_destroy(fluid);
 }
 
+/* Only the window that the contact time is in says nothing; of two unlike bodies both count, and
+ * shifted times move it. */
+static void a_contact_time_outside_of_the_window_is_named(void **state)
+{
+    (void)state;
+    restitute_material *foam, *steel, *slow, *pair;
+    restitute_error error;
+    double ez, ex, ends[2];
+    char expected[160];
+    CHECK(restitute_material_elastic(1e7, 0.5, &foam, NULL) == 0, "foam");
+    CHECK(restitute_material_elastic(8e10, 0.5, &steel, NULL) == 0, "steel");
+    const restitute_scene scene = steel_ball_on(foam, 0.01, 0);
+    const double time = solve_scene(default_options(), &scene).result.contact_time;
+    CHECK(flags_of(scene) == 0, "no window, no flag");
+    const struct {
+        double low, high;
+        int flag;
+    } windows[] = {{time / 2, 2 * time, 0}, {0, time / 2, 16}, {2 * time, INFINITY, 16}, {0, INFINITY, 0}};
+    for (int i = 0; i < 4; i++) {
+        CHECK(restitute_material_set_window(foam, windows[i].low, windows[i].high, &error) == 0, "%s", error.message);
+        CHECK(flags_of(scene) == windows[i].flag, "window %d: %d", i, flags_of(scene));
+        CHECK(restitute_scene_pair(&scene, &ez, &ex, &error) == RESTITUTE_OK, "%s", error.message);
+        snprintf(expected, sizeof expected,
+                 "contact time %.3g s is outside the window %.3g to %.3g s in which the material was measured", time,
+                 windows[i].low, windows[i].high);
+        CHECK(strcmp(error.message, windows[i].flag ? expected : "") == 0, "\"%s\"", error.message);
+    }
+    CHECK(restitute_material_set_window(foam, time / 2, 2 * time, NULL) == 0, "window");
+    CHECK(restitute_material_shifted(foam, 10, &slow, NULL) == 0, "shifted");
+    CHECK(flags_of(steel_ball_on(slow, 0.01, 0)) == RESTITUTE_FLAG_UNMEASURED, "ten times as slow");
+    CHECK(restitute_material_set_window(steel, time, 1, NULL) == 0, "window");
+    CHECK(restitute_material_effective(foam, steel, &pair, NULL) == 0, "pair");
+    CHECK(restitute_material_window(pair, &ends[0], &ends[1], NULL) == 0 && ends[0] == time && ends[1] == 2 * time,
+          "%g %g", ends[0], ends[1]);
+    CHECK(restitute_material_set_window(foam, 1, 1, &error) == RESTITUTE_ERROR_DOMAIN, "empty");
+    CHECK(restitute_material_set_window(foam, NAN, 1, &error) == RESTITUTE_ERROR_DOMAIN, "NaN");
+    CHECK(restitute_material_set_window(NULL, 0, 1, &error) == RESTITUTE_ERROR_NULL, "NULL");
+    CHECK(restitute_material_window(NULL, NULL, NULL, &error) == RESTITUTE_ERROR_NULL, "NULL");
+    CHECK(restitute_material_shifted(foam, 0, &slow, &error) == RESTITUTE_ERROR_DOMAIN, "time_shift 0");
+    CHECK(restitute_material_shifted(foam, 1, NULL, &error) == RESTITUTE_ERROR_NULL, "NULL");
+    restitute_material_destroy(foam);
+    restitute_material_destroy(steel);
+    restitute_material_destroy(slow);
+    restitute_material_destroy(pair);
+}
+
 static void flags_have_texts(void **state)
 {
     (void)state;
-    for (int flag = 1; flag <= 8; flag *= 2)
+    for (int flag = 1; flag <= 16; flag *= 2)
         CHECK(strcmp(restitute_flag_text(flag), "unknown flag") != 0, "flag %d", flag);
     CHECK(strcmp(restitute_flag_text(3), "unknown flag") == 0, "two flags are no flag");
 }
@@ -180,6 +226,7 @@ int main(void)
         cmocka_unit_test(ratios_are_what_they_say),
         cmocka_unit_test(wave_speed_is_that_of_the_denser_sphere),
         cmocka_unit_test(no_modulus_no_waves),
+        cmocka_unit_test(a_contact_time_outside_of_the_window_is_named),
         cmocka_unit_test(flags_have_texts),
         cmocka_unit_test(limits_that_are_passed_are_named),
         cmocka_unit_test(limits_stand_behind_other_remarks),

@@ -5,7 +5,7 @@
 set -u
 case $RESTITUTE in /*) ;; *) RESTITUTE=$PWD/$RESTITUTE ;; esac
 SOURCE_DIR=$(cd "$SOURCE_DIR" && pwd)
-materials=$SOURCE_DIR/examples/materials
+materials=$SOURCE_DIR/src/materials
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1

@@ -5,9 +5,8 @@
 . "$(dirname -- "$0")/common.sh"
 
 for file in "$materials"/*.json; do
-    expect 0 pair --material "$file" --radius 0.005 --partner same --friction 0.2 --velocity 0.1 --angle 30
-    has "$file" '"source"' '"name"' '"density_kg_m3"'
-    has "$materials/README.md" "$(basename "$file")"
+    expect 0 pair --material "$file" --radius 0.005 --density 1000 --partner same --friction 0.2 --velocity 0.1 --angle 30
+    has "$file" '"source"' '"name"'
 done
 
 # material JSON...: the file m.json of these lines; pair_of_it runs it.
@@ -73,8 +72,28 @@ printf '\357\273\277{"name": "x", "poisson_ratio": 0.5, "model": "elastic",\r\n"
 
 # By name, listed and shown; what is no name is refused with the names.
 expect 0 materials
-has out polyisobutylene steel 'Soda-lime silicate glass'
+has out polyisobutylene steel 'EN 572-1' '3.2e-12 to 7.8e+06' '25 (>-175)'
 expect 0 materials show polyisobutylene
 has out '920 kg/m^3' tau_s,G_Pa
+expect 0 materials silicone
+has out 'window            5e-08 to 0.49 s' 'temperature       not given'
+cp "$materials/silicone.json" own.json
+expect 0 materials own.json --figure own.svg
+has own.svg 'angular frequency (rad/s)' measured
+refused 'own.svg' materials own.svg
+refused 'needs the name of a material' materials --figure own.svg
+refused 'no shift of times with temperature is known for Structural steel' materials steel --temperature 40
 expect 0 pair --material steel $rest --format csv
 refused 'did you mean steel?' pair --material steal $rest
+
+# Outside of the window of times: one impact in words, many counted, in the record too.
+good_head="{$head, \"model\": \"elastic\", \"modulus_pa\": 1e6"
+material "$good_head, \"window_s\": [1, 2]}" && expect 0 pair --material m.json --radius 0.001 --density 1000 \
+    --friction 0.2 --speed 0.01
+has out '(measured from 1 to 2 s)' 'passed: the contact time is outside the window of times'
+printf 'speed_m_s\n0.01\n0.02\n' >rows.csv
+expect 0 pair --material m.json --radius 0.001 --density 1000 --friction 0.2 --input rows.csv --output out.csv
+has err '2 of 2 rows pass the limit UNMEASURED: contact time outside the window'
+has out.csv.meta.json '"UNMEASURED": 2'
+has out.csv UNMEASURED
+material "$good_head," '"window_s": [2, 1]}' && bad 'line 2: window_s = [2, 1]: must be finite, > 0 and ascending'

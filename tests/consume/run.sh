@@ -75,11 +75,11 @@ components=core
 "$CMAKE" --build user
 user/consumer
 user/consumer_cxx
-[ "$WITH_FILES" = OFF ] || user/consumer_files "$SOURCE_DIR/examples/materials/polyisobutylene.json"
+[ "$WITH_FILES" = OFF ] || user/consumer_files "$SOURCE_DIR/src/materials/polyisobutylene.json"
 [ "$WITH_CONTACT" = OFF ] || user/consumer_contact
 [ "$WITH_TABLE" = OFF ] || user/consumer_table
 if [ "$WITH_TABLE_FILES" != OFF ] && [ "$WITH_PYTHON" != OFF ]; then
-    "$RESTITUTE" table build --material "$SOURCE_DIR/examples/materials/steel.json" --radius 0.01 \
+    "$RESTITUTE" table build --material "$SOURCE_DIR/src/materials/steel.json" --radius 0.01 \
         --partner same --friction 0.2 --tolerance 1e-2 --output user/table.h5
     user/consumer_table_files user/table.h5
 fi
@@ -101,7 +101,7 @@ if [ "$WITH_FORTRAN" != OFF ]; then
     for consumer in user-fortran/consumer*; do
         case $consumer in
         *_table_files) "$consumer" user-fortran/table.h5 ;;
-        *_files) "$consumer" "$SOURCE_DIR/examples/materials/polyisobutylene.json" ;;
+        *_files) "$consumer" "$SOURCE_DIR/src/materials/polyisobutylene.json" ;;
         *) "$consumer" ;;
         esac
     done
@@ -184,7 +184,7 @@ if [ "$WITH_FILES" != OFF ]; then
     # shellcheck disable=SC2046
     "$CC" -o user/files_by_pkg_config "$SOURCE_DIR/tests/consume/project/consumer_files.c" \
         $(pkg-config --cflags --libs $static restitute-files)
-    user/files_by_pkg_config "$SOURCE_DIR/examples/materials/polyisobutylene.json"
+    user/files_by_pkg_config "$SOURCE_DIR/src/materials/polyisobutylene.json"
 fi
 packages=$(find "$prefix" -path '*-packages/restitute/__init__.py')
 if [ "$kind" = shared ] && [ "$WITH_PYTHON" != OFF ]; then

@@ -1,5 +1,5 @@
 /* A steel ball on a polymer whose Prony series is in a file: restitution by speed. The argument is
- * the file, as examples/materials/polyisobutylene.csv or .json. */
+ * the file, as src/materials/polyisobutylene.csv or .json. */
 #include <restitute/files.h>
 #include <stdio.h>
 

@@ -1,5 +1,5 @@
 !> A steel ball on a polymer whose Prony series is in a CSV file (columns tau_s, G_Pa): restitution
-!> by speed. The argument is the file, as examples/materials/polyisobutylene.csv.
+!> by speed. The argument is the file, as src/materials/polyisobutylene.csv.
 program prony_polymer
   use, intrinsic :: iso_fortran_env, only: iostat_end
   use restitute

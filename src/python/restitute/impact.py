@@ -17,7 +17,8 @@ __all__ = ["LIMITS", "Pairs", "pair", "solve"]
 #: Error of ez over a_max/R where the sphere deforms (docs/soft_contacts.md).
 SOFT_CONTACT_ERROR = 0.18
 
-#: Limits of the model: flag, name, its option, what it bounds, in words.
+#: Limits of the model: flag, name, its option, what it bounds, in words. The window of a material
+#: has no option.
 LIMITS = (
     (1, "FAST", "speed_limit", "speed_ratio", "speed above {:g} of the shear wave speed"),
     (2, "LARGE_CONTACT", "radius_limit", "radius_ratio",
@@ -25,6 +26,8 @@ LIMITS = (
     (4, "LONG_SLIDE", "displacement_limit", "displacement_ratio",
      "sliding distance above {:g} of the contact radius"),
     (8, "COUPLED", "dundurs_limit", "dundurs_beta", "Dundurs' |beta| above {:g}"),
+    (16, "UNMEASURED", "", "contact_time",
+     "contact time outside the window in which the material was measured"),
 )
 
 
@@ -88,8 +91,8 @@ class Pairs(Columns):
         array(['', 'psi = -1: must be in [0, 1e+12] or inf'], dtype=object)
         """
         status = np.ravel(self.status)
-        kinds, place = np.unique(status * 16 + np.ravel(self.flags), return_inverse=True)
-        lines = np.array([_line(*divmod(int(kind), 16)) for kind in kinds], object)[place.ravel()]
+        kinds, place = np.unique(status * 32 + np.ravel(self.flags), return_inverse=True)
+        lines = np.array([_line(*divmod(int(kind), 32)) for kind in kinds], object)[place.ravel()]
         for i in np.flatnonzero(status < 0):
             lines[i] = self.message(*np.unravel_index(i, self.shape))
         return lines.reshape(self.shape)
@@ -111,7 +114,9 @@ class Pairs(Columns):
         passed, flags = [], np.ravel(self.flags)
         for bit, name, option, member, words in LIMITS:
             hit = (flags & bit) != 0
-            if np.any(hit):
+            if np.any(hit) and not option:
+                passed.append((name, int(np.sum(hit)), self._outside_window(hit)))
+            elif np.any(hit):
                 most = np.max(np.abs(np.ravel(getattr(self, member))[hit]))
                 text = words.format(getattr(self.settings, option))
                 worst = f"{most:.3g}"
@@ -119,6 +124,21 @@ class Pairs(Columns):
                     worst += f" ({soft_contact(most)})"
                 passed.append((name, int(np.sum(hit)), _of(hit, self.shape, text, worst)))
         return passed
+
+    def _outside_window(self, hit):
+        """Contact times outside of windows, in words."""
+        time = np.ravel(self.contact_time)[hit]
+        solids = self.impacts.solids if self.impacts else []
+        windows = {solids[i].window for i in set(self.impacts.records["material"][hit].tolist())
+                   } if solids else set()
+        where = "the window in which the material was measured"
+        if len(windows) == 1:
+            where = "the window {:.3g} to {:.3g} s in which the material was measured".format(
+                *windows.pop())
+        if not self.shape:
+            return f"contact time {time[0]:.3g} s is outside {where}"
+        return (f"{time.size} of {hit.size} impacts: contact times from {time.min():.3g} to "
+                f"{time.max():.3g} s are outside {where}")
 
 
 def soft_contact(ratio: float) -> str:

@@ -16,10 +16,6 @@ from restitute._library import call, ffi
 __all__ = ["Material", "Series", "material", "material_names", "shear_modulus", "solids"]
 _FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "materials")
 
-#: Shift with temperature, log10 a_T = -c1 (T - T0)/(c2 + T - T0): T0 (degrees Celsius), c1, c2 (K).
-#: Polyisobutylene: Ferry, Viscoelastic Properties of Polymers, table 11-II, for 298 K.
-_WLF = {"polyisobutylene": (25.0, 8.61, 200.4)}
-
 
 class Series(NamedTuple):
     """G(t) = equilibrium_modulus + sum_k modulus_k exp(-t/relaxation_time_k)
@@ -46,6 +42,11 @@ class Material:
         What a file says; empty without one.
     density : float
         kg/m^3; nan if none is given.
+    temperature : float
+        Of the constants, degrees Celsius; nan if none is given.
+    wlf : (float, float, float), or None
+        c1, c2 (K) and reference temperature T0 (degrees Celsius) of the shift of times with
+        temperature, log10 a_T = -c1 (T - T0)/(c2 + T - T0).
     parts : tuple of two Materials, or None
         Those of an effective solid.
 
@@ -63,10 +64,14 @@ class Material:
     """
 
     def __init__(self, handle: Any, name: str = "", source: str = "", model: str = "",
-                 density: float = math.nan, parts: tuple[Material, Material] | None = None):
+                 density: float = math.nan, parts: tuple[Material, Material] | None = None,
+                 window: tuple[float, float] | None = None, temperature: float = math.nan,
+                 wlf: tuple[float, float, float] | None = None):
         self._handle = ffi.gc(handle, _library.core.restitute_material_destroy)
         self.name, self.source, self.model, self.density = name, source, model, density
-        self.parts = parts
+        self.parts, self.temperature, self.wlf = parts, temperature, wlf
+        if window is not None:
+            call(_library.core.restitute_material_set_window, handle, *map(float, window))
         self.address = int(ffi.cast("uintptr_t", handle))
 
     @classmethod
@@ -165,8 +170,10 @@ class Material:
         info = _library.struct("material_info", "files")
         handle = ffi.new("restitute_material **")
         call(_library.files.restitute_material_read, _library.string(path), handle, info)
+        wlf = (info.wlf_c1, info.wlf_c2, info.wlf_reference)
         return cls(handle[0], _library.text(info.name), _library.text(info.source),
-                   _library.text(info.model), info.density)
+                   _library.text(info.model), info.density, temperature=info.temperature,
+                   wlf=None if math.isnan(info.wlf_c1) else wlf)
 
     @property
     def poisson_ratio(self) -> float:
@@ -177,6 +184,18 @@ class Material:
     def dundurs(self) -> float:
         """Dundurs' beta of an effective solid, in [-1/2, 1/2]; 0 for a material by itself."""
         return _library.core.restitute_material_dundurs(self._handle)
+
+    @property
+    def window(self) -> tuple[float, float]:
+        """The times (s) between which the material was measured; (0.0, inf) if none are given.
+        An impact whose contact time is outside of it is warned of.
+
+        >>> Material.elastic(1e6, window=(1e-5, 1)).window
+        (1e-05, 1.0)
+        """
+        ends = ffi.new("double[2]")
+        call(_library.core.restitute_material_window, self._handle, ends, ends + 1)
+        return ends[0], ends[1]
 
     @property
     def series(self) -> Series:
@@ -224,8 +243,8 @@ class Material:
         return ((sine * cosine) @ self.series.modulus + viscous)[()]
 
     def shifted(self, time_shift: float) -> Material:
-        """The same solid with all relaxation times and viscosities times `time_shift`, the a_T of
-        a temperature.
+        """The same solid with all relaxation times, viscosities and the window times `time_shift`,
+        the a_T of a temperature.
 
         >>> Material.maxwell(1e6, 50.0).shifted(10).series.relaxation_time
         array([0.0005])
@@ -235,18 +254,40 @@ class Material:
         if self.parts:
             parts = (part.shifted(time_shift) for part in self.parts)
             return Material.effective(*parts, **self._about())
-        s = self.series
-        return Material.prony(s.relaxation_time * time_shift, s.modulus, s.equilibrium_modulus,
-                              s.parallel_viscosity * time_shift, self.poisson_ratio,
-                              **self._about())
+        made = ffi.new("restitute_material **")
+        call(_library.core.restitute_material_shifted, self._handle, time_shift, made)
+        return Material(made[0], **self._about())
+
+    def at_temperature(self, temperature: float) -> Material:
+        """The same solid at another temperature (degrees Celsius), by `wlf`.
+
+        >>> material("polyisobutylene").at_temperature(40).temperature
+        40.0
+
+        Raises
+        ------
+        DomainError
+            There are no constants of the shift, or not for this temperature.
+        """
+        if self.wlf is None:
+            raise errors.DomainError(
+                f"temperature = {temperature:g}: no shift of times with temperature is known for "
+                f"{self.name or 'the material'}; take Material.shifted(a_T)")
+        info, made = _library.struct("material_info", "files"), ffi.new("restitute_material **")
+        info.temperature = self.temperature
+        info.wlf_c1, info.wlf_c2, info.wlf_reference = self.wlf
+        call(_library.files.restitute_material_at_temperature, self._handle, info, temperature,
+             made)
+        return Material(made[0], **{**self._about(), "temperature": float(temperature)})
 
     def _about(self):
-        return {name: getattr(self, name) for name in ("name", "source", "model", "density")}
+        names = ("name", "source", "model", "density", "temperature", "wlf")
+        return {name: getattr(self, name) for name in names}
 
     def _key(self) -> tuple:
         s = self.series
         return (s.relaxation_time.tobytes(), s.modulus.tobytes(), *s[2:], self.poisson_ratio,
-                self.dundurs, np.float64(self.density).tobytes())
+                self.dundurs, np.float64(self.density).tobytes(), self.window)
 
     def __eq__(self, other):
         return self._key() == other._key() if isinstance(other, Material) else NotImplemented
@@ -255,8 +296,10 @@ class Material:
         return hash(self._key())
 
     def __reduce__(self):
-        make: Any = Material.effective if self.parts else Material.prony
-        return partial(make, **self._about()), self.parts or (*self.series, self.poisson_ratio)
+        if self.parts:
+            return partial(Material.effective, **self._about()), self.parts
+        make = partial(Material.prony, window=self.window, **self._about())
+        return make, (*self.series, self.poisson_ratio)
 
     def __repr__(self):
         s = self.series
@@ -266,13 +309,19 @@ class Material:
                 f"{s.equilibrium_modulus:.3g} Pa, nu = {self.poisson_ratio:.3g}>")
 
 
+def _folder() -> str:
+    """Where the files are: as for restitute_material_by_name in C."""
+    return os.environ.get("RESTITUTE_MATERIALS") or _FOLDER
+
+
 def material_names() -> list[str]:
-    """Names that `material` knows.
+    """Names that `material` knows: files of the package, or of the folder that the environment
+    variable RESTITUTE_MATERIALS names.
 
     >>> "polyisobutylene" in material_names()
     True
     """
-    return sorted(name[:-5] for name in os.listdir(_FOLDER) if name.endswith(".json"))
+    return sorted(name[:-5] for name in os.listdir(_folder()) if name.endswith(".json"))
 
 
 def material(name: str | os.PathLike, temperature: float | None = None) -> Material:
@@ -284,7 +333,7 @@ def material(name: str | os.PathLike, temperature: float | None = None) -> Mater
         One of `material_names()`, or a .json or .csv file.
     temperature : float, optional
         Degrees Celsius; by default the one that the constants hold for. Relaxation times are
-        shifted by the equation of Williams, Landel and Ferry, where its constants are known.
+        shifted by the equation of Williams, Landel and Ferry, where the file has its constants.
 
     Raises
     ------
@@ -302,23 +351,13 @@ def material(name: str | os.PathLike, temperature: float | None = None) -> Mater
     if word.endswith((".json", ".csv")):
         found = Material.read(word)
     elif word in names:
-        found = Material.read(os.path.join(_FOLDER, f"{word}.json"))
+        found = Material.read(os.path.join(_folder(), f"{word}.json"))
     else:
         near = difflib.get_close_matches(word, names, 1)
         hint = f"did you mean {near[0]}? " if near else ""
         raise errors.DomainError(f"material = {word!r}: {hint}must be a .json or .csv file or one "
                                  f"of {', '.join(names)}")
-    if temperature is None:
-        return found
-    if word not in _WLF:
-        raise errors.DomainError(f"temperature = {temperature:g}: no shift of times with "
-                                 f"temperature is known for {word}; take Material.shifted(a_T)")
-    reference, c1, c2 = _WLF[word]
-    if not reference - c2 < temperature < math.inf:
-        raise errors.DomainError(f"temperature = {temperature:g}: must be above "
-                                 f"{reference - c2:g} degrees Celsius")
-    above = temperature - reference
-    return found.shifted(10 ** (-c1 * above / (c2 + above)))
+    return found if temperature is None else found.at_temperature(temperature)
 
 
 def shear_modulus(*, youngs: Any = None, shore_a: Any = None, poisson_ratio: Any = 0.5) -> Any:

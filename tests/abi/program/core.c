@@ -8,7 +8,7 @@ static void materials(void)
 {
     const double tau[] = {1e-4, 1e-2}, g[] = {5e6, 1e6};
     double equilibrium, viscosity, times[2], moduli[2];
-    restitute_material *prony, *elastic, *kelvin_voigt, *maxwell, *effective;
+    restitute_material *prony, *elastic, *kelvin_voigt, *maxwell, *effective, *shifted;
     DONE(restitute_material_prony(1e6, 0, 2, tau, g, 0.4, &prony, &error));
     DONE(restitute_material_elastic(1e9, 0.3, &elastic, &error));
     DONE(restitute_material_kelvin_voigt(1e6, 50, 0.5, &kelvin_voigt, &error));
@@ -18,6 +18,11 @@ static void materials(void)
     SHOW(equilibrium, viscosity, times[0], moduli[1], (double)restitute_material_terms(prony));
     SHOW(restitute_material_dundurs(effective), restitute_material_poisson_ratio(effective));
     SHOW(restitute_material_modulus(kelvin_voigt, 1e-3), restitute_material_modulus(maxwell, 1e-3));
+    DONE(restitute_material_set_window(prony, 1e-4, 1, &error));
+    DONE(restitute_material_shifted(prony, 10, &shifted, &error));
+    DONE(restitute_material_window(shifted, &times[0], &times[1], &error));
+    SHOW(times[0], times[1], restitute_material_modulus(shifted, 1e-3));
+    restitute_material_destroy(shifted);
     restitute_material_destroy(prony);
     restitute_material_destroy(elastic);
     restitute_material_destroy(kelvin_voigt);

@@ -239,7 +239,7 @@ class _Batch:
         for _, name, option, _, words in LIMITS:
             if name in limits:
                 say(f"remark: {limits[name]} {of} pass the limit {name}: "
-                    f"{words.format(getattr(self.limits, option))}")
+                    f"{words.format(getattr(self.limits, option)) if option else words}")
         if self.arguments.figure:
             self._draw()
         failed = np.count_nonzero(~self.rows.solved)

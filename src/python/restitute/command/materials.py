@@ -5,53 +5,135 @@ from restitute.command.options import Refusal, emit, number_text, shown
 
 _EPILOG = """Examples:
   restitute materials
-  restitute materials show polyisobutylene
+  restitute materials polyisobutylene --figure polyisobutylene.svg
   restitute pair --material polyisobutylene --radius 0.005 --friction 0.3 --speed 0.1
 At another temperature, by way of a material file:
-  restitute materials show polyisobutylene --temperature 40 --format json >pib40.json
+  restitute materials polyisobutylene --temperature 40 --format json >pib40.json
   restitute pair --material pib40.json --radius 0.005 --friction 0.3 --speed 0.1
 
-The moduli are shear moduli: at once, and after infinite time.
+The moduli are shear moduli: at once, and after infinite time. The window is that of the times in
+which the material was measured: an impact that takes longer or shorter is flagged. Temperatures
+are those of the constants, and from which on they can be shifted.
 """
+_COLUMNS = "{:16} {:14} {:>6} {:>5} {:>9} {:>9}  {:19} {:12}  {}"
 
 
 def add(subparsers):
     """The parser of `restitute materials`."""
     parser = subparsers.add_parser("materials", epilog=_EPILOG,
-                                   usage="restitute materials [list | show NAME|FILE]")
-    parser.add_argument("what", nargs="?", default="list", metavar="list|show",
-                        help="list: all names (default); show: one material, with its Prony terms")
+                                   usage="restitute materials [list | [show] NAME|FILE]")
+    parser.add_argument("what", nargs="?", default="list", metavar="list|show|NAME",
+                        help="list: all names (default); show or a name: one material, with its "
+                        "Prony terms")
     parser.add_argument("material", nargs="?", metavar="NAME|FILE", help="of show")
-    options.add(parser, "temperature", "CELSIUS", "of show: with the relaxation times of this "
-                "temperature, where their shift is known", options.bounded(-273.15, 1e4))
-    options.add(parser, "format", "text|json", "of show: json is a material file; default text",
-                options.one_of("text", "json"))
+    options.add(parser, "temperature", "CELSIUS", "of one material: with the relaxation times of "
+                "this temperature, where their shift is known", options.bounded(-273.15, 1e4))
+    options.add(parser, "format", "text|json", "of one material: json is a material file; default "
+                "text", options.one_of("text", "json"))
+    options.add(parser, "figure", "FILE", "of one material: relaxation modulus, storage and loss "
+                "modulus, with the window shaded, .svg, .png or .pdf; needs matplotlib",
+                options.ending(".svg", ".png", ".pdf"))
 
 
 def run(arguments):
     """List the materials, or show one."""
     import restitute
+    from restitute.command import files, provenance
 
-    name = arguments.material
-    if options.one_of("list", "show")(arguments.what, "materials: action") == "show":
-        if name is None:
-            raise Refusal("materials show: the name of a material is missing; see --help")
-        word = problem.read_material(name, "material")
-        material = restitute.material(word, temperature=arguments.temperature)
-        if arguments.temperature is not None:
-            material.source += f"; relaxation times at {arguments.temperature:g} C"
-        emit(_file(material) if arguments.format == "json" else _page(material))
-        return 0
-    if name is not None:
+    word, name = arguments.what, arguments.material
+    if name is not None and word != "show":
         raise Refusal(f'unexpected argument "{name[:100]}"; see --help')
-    lines = [f"{'name':18} {'kg/m^3':>8} {'G(0), Pa':>10} {'G(inf), Pa':>10}  {'nu':5}  full name"]
+    if word == "show" and name is None:
+        raise Refusal("materials show: the name of a material is missing; see --help")
+    if word == "list":
+        given = {"temperature", "figure"} & arguments.given.keys()
+        if given:
+            raise Refusal(f"--{min(given)}: needs the name of a material")
+        emit(_list())
+        return 0
+    word = problem.read_material(name or word, "material")
+    if arguments.figure:
+        places = files.Places()
+        provenance.read_materials(places, {"material": word})
+        files.check(arguments.figure, "--figure")
+        places.write("--figure", arguments.figure)
+        places.check()
+        options.need("matplotlib", "--figure")
+    material = restitute.material(word, temperature=arguments.temperature)
+    if arguments.temperature is not None:
+        material.source += f"; relaxation times at {arguments.temperature:g} C"
+    text = _file(material) if arguments.format == "json" else _page(material)
+    if arguments.figure:
+        files.write((arguments.figure, _figure(material, arguments.figure)), (None, text))
+    else:
+        emit(text)
+    return 0
+
+
+def _list():
+    """A line a material."""
+    import textwrap
+
+    lines = [_COLUMNS.format("name", "model", "kg/m^3", "nu", "G(0), Pa", "G(inf)", "window, s",
+                             "C", "source")]
     for word in problem.names():
         material = problem.material_of(word)
         stiff, soft = _moduli(material.series)
-        lines.append(f"{word:18} {material.density:8g} {stiff:10.3g} {soft:10.3g}  "
-                     f"{material.poisson_ratio:<5.3g}  {shown(material.name)}")
-    emit("\n".join([*lines, ""]))
-    return 0
+        density = f"{material.density:g}" if material.density > 0 else "-"
+        lines.append(_COLUMNS.format(
+            word, material.model, density, f"{material.poisson_ratio:g}", f"{stiff:.3g}",
+            f"{soft:.3g}", _window(material), _temperature(material, ">"),
+            textwrap.shorten(shown(material.source), 60, placeholder=" ..")))
+    return "\n".join([*lines, ""])
+
+
+def _window(material):
+    """"1e-05 to 1", or "-" where none is given."""
+    low, high = material.window
+    return f"{low:.2g} to {high:.2g}" if high < float("inf") else "-"
+
+
+def _temperature(material, word):
+    """"25 (>-175)", "25", or "-"."""
+    if not material.temperature > -274:
+        return "-"
+    if not material.wlf:
+        return f"{material.temperature:g}"
+    _, c2, reference = material.wlf
+    return f"{material.temperature:g} ({word}{reference - c2:.0f})"
+
+
+def _given(text, unit):
+    return "not given" if text == "-" else f"{text} {unit}"
+
+
+def _figure(material, path):
+    """G(t), G'(omega) and G''(omega) with the window of times."""
+    import io
+    import os
+
+    import numpy as np
+
+    from restitute import plot
+    from restitute.plot.sheet import legend
+
+    low, high = material.window
+    tau = material.series.relaxation_time
+    ends = [*tau, *((low, high) if high < np.inf else ())] or [1e-6, 1.0]
+    time = np.geomspace(min(ends) / 10, max(ends) * 10, 400)
+    ax = plot.sheet(2, title=material.name or material.model, note=material.source)
+    plot.relaxation(material, time, ax=ax[0])
+    plot.moduli(material, 1 / time, ax=ax[1])
+    if high < np.inf:
+        ax[0].axvspan(low, high, color="#dfe8f0", zorder=0, label="measured")
+        ax[1].axvspan(1 / high, 1 / low, color="#dfe8f0", zorder=0, label="measured")
+    ax[0].get_legend().remove()
+    soft = material.relaxation_modulus(time[-1])
+    ax[0].set_ylim(bottom=max(soft, 1e-5 * material.relaxation_modulus(time[0])) / 2)
+    legend(ax[1])
+    image = io.BytesIO()
+    plot.save(ax, image, os.path.splitext(path)[1][1:].lower())
+    return image.getvalue()
 
 
 def _moduli(series):
@@ -60,15 +142,26 @@ def _moduli(series):
     return float("inf") if series.parallel_viscosity > 0 else stiff, series.equilibrium_modulus
 
 
+def _short(text):
+    """As many letters as a material file takes."""
+    return text.encode()[:511].decode(errors="ignore")
+
+
 def _file(material):
     """A material file."""
     import json
 
     series = material.series
-    content = {"name": material.name or material.model, "source": material.source or "unknown",
+    content = {"name": material.name or material.model, "source": _short(material.source or "unknown"),
                "poisson_ratio": material.poisson_ratio, "model": "prony"}
     if material.density > 0:
         content["density_kg_m3"] = material.density
+    if material.temperature > -274:
+        content["temperature_c"] = material.temperature
+    if material.wlf:
+        content.update(zip(("wlf_c1", "wlf_c2_k", "wlf_reference_c"), material.wlf))
+    if material.window[1] < float("inf"):
+        content["window_s"] = material.window
     if len(series.modulus):
         terms = zip(series.relaxation_time.tolist(), series.modulus.tolist())
         content.update(equilibrium_modulus_pa=series.equilibrium_modulus,
@@ -87,10 +180,13 @@ def _page(material):
     stiff, soft = _moduli(series)
     lines = [shown(material.name or material.model)]
     for label, value in (("source", shown(material.source)), ("model", material.model),
-                         ("density", f"{material.density:g} kg/m^3"),
+                         ("density", f"{material.density:g} kg/m^3" if material.density > 0
+                          else "not given"),
                          ("Poisson's ratio", f"{material.poisson_ratio:g}"),
                          ("shear modulus", f"{stiff:.6g} Pa at once, {soft:.6g} Pa in the end"),
-                         ("parallel dashpot", f"{series.parallel_viscosity:g} Pa s")):
+                         ("parallel dashpot", f"{series.parallel_viscosity:g} Pa s"),
+                         ("window", _given(_window(material), "s")),
+                         ("temperature", _given(_temperature(material, "shifts above "), "C"))):
         lines.append(f"  {label:17} {value}")
     terms = [f"{number_text(tau)},{number_text(modulus)}" for tau, modulus in
              zip(series.relaxation_time.tolist(), series.modulus.tolist())]

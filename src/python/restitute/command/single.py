@@ -197,14 +197,19 @@ def _limits(impact, result):
         yield f"  {label:22} {getattr(result, member):<12.3g} (limit {limit:g})"
         cost = f": {soft_contact(result.radius_ratio)}" if member == "radius_ratio" else ""
         yield from (f"    passed: {text}{cost}" for text in _flags(result.flags & flag))
+    low, high = impact.solids[0].window
+    if high < float("inf"):
+        yield (f"  {'contact time':22} {result.contact_time:<12.3g} (measured from {low:.3g} to "
+               f"{high:.3g} s)")
+        yield from (f"    passed: {text}" for text in _flags(result.flags & 16))
 
 
 def _flags(flags):
     """What the model neglects, of each flag."""
     from restitute import _library
+    from restitute.impact import LIMITS
 
-    return [_library.text(_library.core.restitute_flag_text(bit)) for bit in (1, 2, 4, 8)
-            if flags & bit]
+    return [_library.text(_library.core.restitute_flag_text(bit)) for bit, *_ in LIMITS if flags & bit]
 
 
 def _numerics(impact, result):

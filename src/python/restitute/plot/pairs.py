@@ -14,7 +14,8 @@ QUANTITIES = {"ez": "$e_z$", "ex": "$e_x$"}
 TITLES = {"ez": "Normal restitution", "ex": "Tangential restitution"}
 # bits of restitute_result.flags: the name in a legend, the hatching of a map
 _LIMITS = {1: ("v / cₛ too large", "\\\\\\"), 2: ("a / R too large", "///"),
-           4: ("slide too long", "---"), 8: ("unlike bodies", "|||")}
+           4: ("slide too long", "---"), 8: ("unlike bodies", "|||"),
+           16: ("time not measured", "...")}
 _LETTERS = {"chi": "χ", "psi": "ψ", "delta1": "δ₁", "delta2": "δ₂", "gamma": "γ",
             "friction": "friction μ", "speed_m_s": "speed v (m/s)",
             "angle_deg": "angle from the normal θ (degrees)"}

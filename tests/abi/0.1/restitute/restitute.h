@@ -195,6 +195,37 @@ RESTITUTE_SINCE_0_1 int restitute_material_series(const restitute_material *mate
     double *equilibrium_modulus, double *parallel_viscosity, double *relaxation_time,
     double *modulus, restitute_error *error);
 
+/** Set the window of times (s) in which the material was measured; (0, infinity) after creation. An
+ *  impact in SI units whose contact time is outside of it gets the flag UNMEASURED: its result
+ *  extrapolates. The material must not be in use elsewhere.
+ *
+ *  @param shortest,longest  0 <= shortest < longest; infinity allowed
+ *  @return OK, ERROR_DOMAIN, ERROR_NULL
+ *
+ *      restitute_material_set_window(rubber, 1e-5, 1e2, &error); */
+RESTITUTE_SINCE_0_1 int restitute_material_set_window(restitute_material *material, double shortest,
+    double longest, restitute_error *error);
+
+/** The window of a material. That of an effective solid is the time that both windows share; if
+ *  they share none, shortest > longest.
+ *
+ *  @param shortest,longest  either may be NULL: not wanted
+ *  @return OK, ERROR_NULL */
+RESTITUTE_SINCE_0_1 int restitute_material_window(const restitute_material *material,
+    double *shortest, double *longest, restitute_error *error);
+
+/** The same solid with all relaxation times, viscosities and the window times `time_shift`: the a_T
+ *  of another temperature.
+ *
+ *  @param time_shift  in [1e-100, 1e100]
+ *  @param shifted     the new solid, to be destroyed like any material
+ *  @return ERROR_DOMAIN also if it leaves the ranges of @ref restitute_material_prony; ERROR_NULL,
+ *          ERROR_MEMORY
+ *
+ *      restitute_material_shifted(rubber, 0.1, &warm_rubber, &error); // ten times as fast */
+RESTITUTE_SINCE_0_1 int restitute_material_shifted(const restitute_material *material,
+    double time_shift, restitute_material **shifted, restitute_error *error);
+
 /* ---------------------------------------------------------------------------- what is to happen */
 
 /** One impact in dimensionless numbers (22),(23). Indentations in d0 = a_el^2/R, contact radii in
@@ -383,7 +414,9 @@ RESTITUTE_SINCE_0_1 void restitute_solver_destroy(restitute_solver *solver);
       "the sphere slides far during the contact: it is not axisymmetric any more")                 \
     X(COUPLED, 8,                                                                                  \
       "the materials are elastically unlike: the model neglects that normal and tangential "       \
-      "problem are coupled")
+      "problem are coupled")                                                                       \
+    X(UNMEASURED, 16,                                                                              \
+      "the contact time is outside the window of times in which the material was measured")
 
 #define RESTITUTE_FLAG_ENUM(name, bit, text) RESTITUTE_FLAG_##name = (bit),
 /** One bit a strained assumption, see @ref RESTITUTE_FLAG_LIST. */
