@@ -90,7 +90,7 @@ static int list_names(const char *folder, struct names *names, restitute_error *
     return RESTITUTE_OK;
 }
 
-/* How many letters must be changed, added or left out (Levenshtein), at most LONGEST_NAME of each. */
+/* How many letters must be changed, added or left out (Levenshtein), of the first LONGEST_NAME. */
 static size_t distance(const char *a, const char *b)
 {
     size_t row[LONGEST_NAME + 1];

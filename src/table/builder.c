@@ -26,9 +26,8 @@ static int check_options(const restitute_table_options *o, restitute_error *erro
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "speed (m/s) = %g to %g: must rise within %g to %g",
                           o->speed[0], o->speed[1], rst_sizes.low, most_speed);
     if (o->speed[1] / o->speed[0] > most_ratio)
-        return rst_report(error, RESTITUTE_ERROR_DOMAIN,
-                          "speed (m/s) = %g to %g: highest over lowest must be <= %g", o->speed[0], o->speed[1],
-                          most_ratio);
+        return rst_report(error, RESTITUTE_ERROR_DOMAIN, "speed (m/s) = %g to %g: highest over lowest must be <= %g",
+                          o->speed[0], o->speed[1], most_ratio);
     if (o->threads < 0 || o->threads > rst_most_threads)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "threads = %d: must be in [0, %d] (0: all)", o->threads,
                           rst_most_threads);
@@ -174,6 +173,37 @@ static void destroy(struct rst_builder *b)
     free(b->solver);
 }
 
+/* Shortest and longest contact time between the lowest and the highest speed; 0 and 0 if the sphere
+ * sinks everywhere. */
+static void contact_times(const struct rst_builder *b, double times[2])
+{
+    times[0] = times[1] = 0;
+    for (int64_t i = 0; i < b->columns; i++) {
+        const struct rst_column *c = &b->column[i];
+        if (c->normal.sunk || c->speed < b->options.speed[0] || c->speed > b->options.speed[1]) continue;
+        times[0] = times[1] > 0 ? fmin(times[0], c->normal.contact_time) : c->normal.contact_time;
+        times[1] = fmax(times[1], c->normal.contact_time);
+    }
+}
+
+static void remark_window(const restitute_material *material, const double times[2], restitute_error *error)
+{
+    double shortest, longest;
+    restitute_material_window(material, &shortest, &longest, NULL);
+    if (times[1] > 0 && (times[0] < shortest || times[1] > longest))
+        rst_remark(error, "contact times from %.3g to %.3g s: the material was measured in the window %.3g to %.3g s",
+                   times[0], times[1], shortest, longest);
+}
+
+static int judge(const restitute_table_data *d, double taken, double time_limit, restitute_error *error)
+{
+    if (fmax(d->error_ez, d->error_ex) <= d->tolerance) return rst_done(error);
+    return rst_report(
+        error, RESTITUTE_TOLERANCE_NOT_REACHED,
+        "tolerance = %g: verified errors %.2g (ez), %.2g (ex) after %lld impacts and %.2g s; time_limit = %g s",
+        d->tolerance, d->error_ez, d->error_ex, (long long)d->impacts, taken, time_limit);
+}
+
 int rst_build(const restitute_scene *scene, const restitute_table_options *options, int threads,
               restitute_table **table, restitute_error *error)
 {
@@ -182,15 +212,14 @@ int rst_build(const restitute_scene *scene, const restitute_table_options *optio
     int status = create(scene, options, threads, &b, error);
     if (!status) status = run(&b, &made, error);
     const double taken = rst_table_clock() - b.began;
+    double times[2];
+    contact_times(&b, times);
     destroy(&b);
     if (status) return status;
     *table = made;
-    const restitute_table_data *d = &made->d;
-    if (fmax(d->error_ez, d->error_ex) <= d->tolerance) return rst_done(error);
-    return rst_report(
-        error, RESTITUTE_TOLERANCE_NOT_REACHED,
-        "tolerance = %g: verified errors %.2g (ez), %.2g (ex) after %lld impacts and %.2g s; time_limit = %g s",
-        d->tolerance, d->error_ez, d->error_ex, (long long)d->impacts, taken, options->time_limit);
+    status = judge(&made->d, taken, options->time_limit, error);
+    remark_window(scene->material, times, error);
+    return status;
 }
 
 int restitute_table_build(const restitute_scene *scene, const restitute_table_options *options, restitute_table **table,

@@ -62,10 +62,11 @@ void rst_column_solver_init(const struct rst_contact *contact, double tolerance,
 static int name_place(double speed, double psi, const restitute_error *why, restitute_error *error)
 {
     if (rst_column_is_too_hard(why->status))
-        return rst_report(error, why->status,
-                          "speed (m/s) = %g, psi = %g: too much work, or a rebound that is lost in rounding: the damping "
-                          "is too strong for a table; lower the upper end of speed",
-                          speed, psi);
+        return rst_report(
+            error, why->status,
+            "speed (m/s) = %g, psi = %g: too much work, or a rebound that is lost in rounding: the damping "
+            "is too strong for a table; lower the upper end of speed",
+            speed, psi);
     return rst_report(error, why->status, "speed (m/s) = %g, psi = %g: %.160s", speed, psi, why->message);
 }
 
@@ -102,7 +103,8 @@ int rst_column_normal(struct rst_column_solver *s, struct rst_column_normal *nor
     *normal = (struct rst_column_normal){r.ez,
                                          r.error_ez,
                                          {r.speed_ratio, r.radius_ratio, r.max_indentation / r.max_contact_radius},
-                                         status == RESTITUTE_NO_REBOUND};
+                                         status == RESTITUTE_NO_REBOUND,
+                                         r.contact_time};
     return RESTITUTE_OK;
 }
 

@@ -42,6 +42,7 @@ struct rst_column_normal {
     double ez, error;
     double strain[3]; /* v_z/c_s, a_max/R, d_max/a_max */
     int sunk;
+    double contact_time; /* s */
 };
 
 /* The solver may fail where a sphere hardly rebounds. */

@@ -207,7 +207,7 @@ def test_materials_are_listed_and_shown(run):
     listed = run("materials")[1]
     assert all(name in listed for name in restitute.material_names())
     shown = run("materials", "show", "polyisobutylene")[1]
-    assert "920 kg/m^3" in shown and shown.count("\n") == 39  # 30 terms and what stands above them
+    assert "920 kg/m^3" in shown and shown.count("\n") == 41  # 30 terms and what stands above them
     assert "did you mean steel?" in refused(run, "materials", "show", "stel")
 
 

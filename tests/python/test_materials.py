@@ -137,3 +137,12 @@ def test_files_of_the_folder_that_the_environment_names_come_first(tmp_path, mon
         {"name": "Jelly", "model": "elastic", "modulus_pa": 100, "poisson_ratio": 0.5}))
     monkeypatch.setenv("RESTITUTE_MATERIALS", str(tmp_path))
     assert material_names() == ["jelly"] and material("jelly").name == "Jelly"
+
+
+@pytest.mark.component("table")
+def test_a_table_whose_contact_times_leave_the_window_is_warned_of():
+    ball = dict(radius=0.002, density=1000, friction=0.3, speeds=(0.001, 0.01), tolerance=1e-3)
+    with pytest.warns(ModelLimitWarning, match=r"^contact times from 0.00\d+ to 0.0\d+ s: the "
+                                               "material was measured in the window 0.607 to 61.2"):
+        restitute.Table.build("vhb4910", **ball)
+    restitute.Table.build("silicone", **ball)

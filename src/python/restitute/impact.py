@@ -128,10 +128,10 @@ class Pairs(Columns):
     def _outside_window(self, hit):
         """Contact times outside of windows, in words."""
         time = np.ravel(self.contact_time)[hit]
-        solids = self.impacts.solids if self.impacts else []
-        windows = {solids[i].window for i in set(self.impacts.records["material"][hit].tolist())
-                   } if solids else set()
-        where = "the window in which the material was measured"
+        windows, where = set(), "the window in which the material was measured"
+        if self.impacts and self.impacts.solids:
+            used = set(self.impacts.records["material"][hit].tolist())
+            windows = {self.impacts.solids[i].window for i in used}
         if len(windows) == 1:
             where = "the window {:.3g} to {:.3g} s in which the material was measured".format(
                 *windows.pop())

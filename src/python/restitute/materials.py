@@ -278,9 +278,11 @@ class Material:
         info.wlf_c1, info.wlf_c2, info.wlf_reference = self.wlf
         call(_library.files.restitute_material_at_temperature, self._handle, info, temperature,
              made)
-        return Material(made[0], **{**self._about(), "temperature": float(temperature)})
+        about = self._about()
+        about["temperature"] = float(temperature)
+        return Material(made[0], **about)
 
-    def _about(self):
+    def _about(self) -> dict[str, Any]:
         names = ("name", "source", "model", "density", "temperature", "wlf")
         return {name: getattr(self, name) for name in names}
 

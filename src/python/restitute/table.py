@@ -133,6 +133,8 @@ class Table:
         -----
         ToleranceWarning
             The verified error is above the tolerance.
+        ModelLimitWarning
+            Contact times are outside the window in which the material was measured.
         """
         options = _library.struct("table_options", "table", threads=threads, tolerance=tolerance)
         options.speed = [float(speed) for speed in np.broadcast_to(speeds, 2)]
@@ -145,8 +147,8 @@ class Table:
         scene, kept = _scene(material, contact)
         function = _library.table.restitute_table_build
         status, message = _library.interruptible(function, scene, options, handle, keep=kept)
-        if status:
-            _library.warn(message, errors.ToleranceWarning)
+        if message:
+            _library.warn(message, errors.ToleranceWarning if status else errors.ModelLimitWarning)
         return cls(handle[0])
 
     @classmethod

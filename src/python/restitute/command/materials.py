@@ -152,7 +152,8 @@ def _file(material):
     import json
 
     series = material.series
-    content = {"name": material.name or material.model, "source": _short(material.source or "unknown"),
+    content = {"name": material.name or material.model,
+               "source": _short(material.source or "unknown"),
                "poisson_ratio": material.poisson_ratio, "model": "prony"}
     if material.density > 0:
         content["density_kg_m3"] = material.density

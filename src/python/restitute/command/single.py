@@ -209,7 +209,8 @@ def _flags(flags):
     from restitute import _library
     from restitute.impact import LIMITS
 
-    return [_library.text(_library.core.restitute_flag_text(bit)) for bit, *_ in LIMITS if flags & bit]
+    text = _library.core.restitute_flag_text
+    return [_library.text(text(bit)) for bit, *_ in LIMITS if flags & bit]
 
 
 def _numerics(impact, result):

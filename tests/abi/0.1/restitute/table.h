@@ -81,7 +81,8 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, table_options)
  *                  not
  *  @param options  NULL: the defaults
  *  @param table    the new table
- *  @param error    optional
+ *  @param error    optional; its message says if contact times leave the window of the material,
+ *                  @ref restitute_material_set_window
  *  @return OK; TOLERANCE_NOT_REACHED: a table whose verified error is above the tolerance;
  *          ERROR_DOMAIN, ERROR_NULL, ERROR_MEMORY, ERROR_STRUCT_SIZE, ERROR_TOO_MUCH_WORK, and what
  *          the solver may return for an impact */
