@@ -21,7 +21,7 @@ if [ -n "${BUILD_DIR-}" ]; then
     export RESTITUTE
     commands=$(echo "$commands" | sed "1s|^|$source_dir/|;1q")
     sh -eu -c "$commands"
-    exec "$source_dir/tests/docs/follow.sh" first_ten_minutes.md tutorial.md lammps
+    exec sh "$source_dir/tests/docs/follow.sh" first_ten_minutes.md tutorial.md lammps
 fi
 cd "$source_dir"
 date
