@@ -19,7 +19,7 @@
  *      restitute_material_standard_solid(1e6, 2e6, 50.0, 0.5, &rubber, NULL);
  *      restitute_scene scene; restitute_scene_init(&scene);
  *      scene.material = rubber; scene.radius1 = 0.01; scene.mass1 = 4e-3; scene.friction = 0.3;
- *      scene.normal_speed = 0.2; scene.tangential_speed = 0.1;                      // m/s
+ *      scene.normal_speed = 0.05; scene.tangential_speed = 0.03;                    // m/s
  *      double ez, ex; restitute_scene_pair(&scene, &ez, &ex, NULL);
  *
  *  Rules that hold for every function of every header, but for the exceptions at their end

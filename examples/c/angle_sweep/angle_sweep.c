@@ -6,7 +6,7 @@
 
 int main(void)
 {
-    const double degree = acos(-1.0) / 180, speed = 1.0; /* m/s */
+    const double degree = acos(-1.0) / 180, speed = 0.03; /* m/s */
     restitute_material *rubber = NULL;
     restitute_solver *solver = NULL;
     restitute_scene scene;

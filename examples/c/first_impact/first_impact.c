@@ -11,7 +11,7 @@ int main(void)
     restitute_scene_init(&scene);                                           /* ball on wall; one of them is rigid */
     scene.material = rubber;
     scene.radius1 = 0.005, scene.mass1 = 0.004, scene.friction = 0.3; /* m, kg */
-    scene.normal_speed = 1.0, scene.tangential_speed = 0.8;           /* m/s */
+    scene.normal_speed = 0.03, scene.tangential_speed = 0.02;         /* m/s */
     if (restitute_scene_pair(&scene, &ez, &ex, NULL) < 0) return 1;   /* the last argument could say why */
     printf("ez = %.3f, ex = %.3f\n", ez, ex);
     restitute_material_destroy(rubber);

@@ -16,7 +16,7 @@ int main(void)
     restitute_error error;
     restitute_material_standard_solid(1e6, 3e6, 300.0, 0.5, &rubber, NULL); /* G1, G2 (Pa), eta (Pa s), nu */
     for (int i = 0; i < ALL; i++) {
-        const double speed = 0.5 * pow(2, i / ANGLES), angle = 10.0 * (i % ANGLES + 1); /* m/s, from the normal */
+        const double speed = 0.004 * pow(2, i / ANGLES), angle = 10.0 * (i % ANGLES + 1); /* m/s, from the normal */
         restitute_result_init(&results[i]);
         restitute_scene_init(&scenes[i]);
         scenes[i].material = rubber;
@@ -32,9 +32,9 @@ int main(void)
         fprintf(stderr, "%s\n", error.message);
         return 1;
     }
-    printf("ex by angle  10     20     30     40     50     60     70     80\n");
+    printf("ex by angle   10     20     30     40     50     60     70     80\n");
     for (int i = 0; i < ALL; i++) {
-        if (i % ANGLES == 0) printf("%4.1f m/s", 0.5 * pow(2, i / ANGLES));
+        if (i % ANGLES == 0) printf("%5.3f m/s", 0.004 * pow(2, i / ANGLES));
         printf("%7.3f", results[i].ex);
         if (i % ANGLES == ANGLES - 1) printf("\n");
     }

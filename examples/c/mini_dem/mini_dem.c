@@ -18,7 +18,7 @@ enum { SPHERES = 200, IMPACTS = 5000, LARGE = 0, SMALL = 1, WALL = 2 }; /* kinds
 
 static const double RADIUS[] = {0.01, 0.006, INFINITY}; /* m */
 static const double DENSITY = 1100, FRICTION = 0.4;     /* kg/m^3 */
-static const double SIDE = 0.2, SPEED = 1.0;            /* of the box, m; of a sphere at the start, m/s */
+static const double SIDE = 0.2, SPEED = 0.02;           /* of the box, m; of a sphere at the start, m/s */
 
 struct sphere {
     int kind;

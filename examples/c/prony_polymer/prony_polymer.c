@@ -5,7 +5,7 @@
 
 int main(int argc, char **argv)
 {
-    const double speeds[] = {0.1, 1.0, 3.0, 10.0}; /* m/s */
+    const double speeds[] = {1e-4, 1e-3, 0.01, 0.05}; /* m/s */
     restitute_material *polymer = NULL;
     restitute_scene scene;
     restitute_error error;
@@ -25,7 +25,7 @@ int main(int argc, char **argv)
             fprintf(stderr, "%s\n", error.message);
             return 1;
         }
-        printf("%5.1f m/s: ez = %6.3f, ex = %6.3f\n", speeds[k], ez, ex);
+        printf("%6.4f m/s: ez = %6.3f, ex = %6.3f\n", speeds[k], ez, ex);
     }
     restitute_material_destroy(polymer);
 }

@@ -4,7 +4,7 @@ program angle_sweep
   use restitute
   implicit none (type, external)
   integer, parameter :: rk = restitute_real
-  real(rk), parameter :: degree = acos(-1.0_rk)/180, speed = 1 ! m/s
+  real(rk), parameter :: degree = acos(-1.0_rk)/180, speed = 0.03_rk ! m/s
   type(restitute_material) :: rubber
   type(restitute_solver) :: solver
   type(restitute_scene) :: scene

@@ -27,8 +27,8 @@ program contact_law
   scene%radius1 = radius
   scene%mass1 = mass
   scene%friction = friction
-  scene%normal_speed = 1        ! m/s
-  scene%tangential_speed = 0.8_rk
+  scene%normal_speed = 0.03_rk  ! m/s
+  scene%tangential_speed = 0.02_rk
   result = restitute_result()
   if (restitute_solver_create(solver=solver, error=error) < 0) call fail()
   if (restitute_solve_scene(solver, scene, result, error=error) < 0) call fail()

@@ -15,8 +15,8 @@ program one_impact
   scene%radius1 = 0.005_rk  ! m
   scene%mass1 = 0.004_rk    ! kg
   scene%friction = 0.3_rk
-  scene%normal_speed = 1    ! m/s
-  scene%tangential_speed = 0.8_rk
+  scene%normal_speed = 0.03_rk  ! m/s
+  scene%tangential_speed = 0.02_rk
   status = restitute_scene_pair(scene, ez, ex, error)
   if (status < 0) error stop restitute_message(error)
   print "(2(a, f5.3))", "ez = ", ez, ", ex = ", ex

@@ -5,7 +5,7 @@ program prony_polymer
   use restitute
   implicit none (type, external)
   integer, parameter :: rk = restitute_real
-  real(rk), parameter :: speeds(4) = [0.1_rk, 1.0_rk, 3.0_rk, 10.0_rk] ! m/s
+  real(rk), parameter :: speeds(4) = [1e-4_rk, 1e-3_rk, 0.01_rk, 0.05_rk] ! m/s
   type(restitute_material) :: polymer
   type(restitute_scene) :: scene
   type(restitute_error) :: error
@@ -28,7 +28,7 @@ program prony_polymer
     scene%normal_speed = speeds(k)
     scene%tangential_speed = 0.5_rk*speeds(k)
     if (restitute_scene_pair(scene, ez, ex, error) < 0) error stop restitute_message(error)
-    print "(f5.1, 2(a, f6.3))", speeds(k), " m/s: ez = ", ez, ", ex = ", ex
+    print "(f6.4, 2(a, f6.3))", speeds(k), " m/s: ez = ", ez, ", ex = ", ex
   end do
   call restitute_material_destroy(polymer)
   deallocate (tau, modulus)

@@ -6,7 +6,7 @@ program table
   use restitute_table_files_module
   implicit none (type, external)
   integer, parameter :: rk = restitute_real
-  real(rk), parameter :: normal(4) = [0.01_rk, 0.1_rk, 1.0_rk, 10.0_rk], slide(4) = 0.5_rk*normal ! m/s
+  real(rk), parameter :: normal(4) = [0.001_rk, 0.003_rk, 0.01_rk, 0.03_rk], slide(4) = 0.5_rk*normal ! m/s
   type(restitute_material) :: rubber
   type(restitute_scene) :: scene
   type(restitute_table_options) :: options
@@ -24,7 +24,7 @@ program table
   scene%mass1 = 0.004_rk    ! kg
   scene%friction = 0.3_rk
   options = restitute_table_options()
-  options%speed = [1e-3_rk, 100.0_rk] ! m/s
+  options%speed = [1e-4_rk, 0.1_rk] ! m/s
   options%tolerance = 1e-4_rk
   if (restitute_table_build(scene, options, built, error) < 0) call fail()
   if (restitute_table_write(built, "rubber.h5", error) < 0) call fail()
@@ -41,7 +41,7 @@ program table
   print "(a)", " speed     ez     ex   small: ez     ex"
   do k = 1, size(normal)
     if (restitute_table_pair(lookup, small, normal(k), slide(k), small_ez, small_ex, error) < 0) call fail()
-    print "(f6.2, 2f7.3, f12.3, f7.3)", normal(k), ez(k), ex(k), small_ez, small_ex
+    print "(f6.3, 2f7.3, f12.3, f7.3)", normal(k), ez(k), ex(k), small_ez, small_ex
   end do
   call restitute_table_destroy(lookup)
   call restitute_material_destroy(rubber)

@@ -21,7 +21,7 @@ _FIELDS = {"time": "T", "spacing": "a_el", "pressure": "G_r d0/a_el",
 _SNAPSHOTS = 9
 _EPILOG = """Example:
   restitute history --material polyisobutylene --radius 0.005 --density 7800 --friction 0.3 \\
-      --speed 1 --angle 30 --output impact.csv --figure impact.svg
+      --speed 0.05 --angle 30 --output impact.csv --figure impact.svg
 
 The CSV has the columns time_s, indentation_m, contact_radius_m, stick_radius_m, normal_force_N,
 tangential_force_N, normal_velocity_m_s, tangential_velocity_m_s; for a dimensionless impact their

@@ -9,11 +9,11 @@ from restitute.command.options import Refusal, number_text, say, shown
 _EPILOG = """One impact:
   restitute pair --chi 7/6 --psi 2 --delta1 1 --gamma 1
   restitute pair --material polyisobutylene --radius 0.005 --density 7800 --friction 0.3 \\
-      --speed 1 --angle 30
+      --speed 0.05 --angle 30
 Many, from a file or a grid:
   restitute pair --input cases.csv --output results.csv
   restitute pair --material polyisobutylene --radius 0.005 --density 7800 --friction 0.3 \\
-      --grid speed=0.1:10:9:log,angle=5:85:9 --output grid.csv --figure grid.svg
+      --grid speed=1e-4:0.05:9:log,angle=5:85:9 --output grid.csv --figure grid.svg
 
 Columns of CASES.csv:
 {columns}

@@ -8,14 +8,14 @@ from restitute.command.options import Refusal, bounded, emit, ending, number_tex
 DONE, FAILED = 0, 1
 _BUILD = """Example:
   restitute table build --material polyisobutylene --radius 0.005 --density 7800 --friction 0.3 \\
-      --speed 1e-3:10 --output pib.h5
+      --speed 1e-5:0.05 --output pib.h5
 
 The errors are verified while the table is built. Exit status: 0 done, 1 the tolerance was not
 reached (the table is written, with its errors), 2 bad usage, nothing written, 130 interrupted.
 """
 _INFO = "Exit status: 0 done, 2 no such table, or damaged.\n"
 _QUERY = """Example:
-  restitute table query pib.h5 --normal-speed 1 --tangential-speed 0.5
+  restitute table query pib.h5 --normal-speed 0.05 --tangential-speed 0.02
 
 Exit status: 0 done, 1 some rows failed, 2 bad usage or input, nothing written.
 """
