@@ -1,32 +1,35 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs the Debian packages that are missing: cmake/install-packages.sh
-# [run|test|ci|package|docs|site-check]
-#   run   what building and running the command needs (the default)
-#   test  run, and what the tests need
-#   ci    test, make, and a second compiler with its sanitizers
-#   package  run, and what cpack needs to make the Debian package
-#   docs  run, and what building the reference and the site, checking the man page and converting figures needs
+# [run|all|test|ci|package|docs|site-check]
+#   run      for the Python package, the command and its figures (the default)
+#   all      run, and the libraries of the components cvode, table_files, bem and fit
+#   test     all, and what the tests need
+#   ci       test, make, and a second compiler with its sanitizers
+#   package  all, and what cpack needs to make Debian packages
+#   docs     all, and what building the reference and the site, checking the man page and converting figures needs
 #   site-check  docs, and the browser of the target site-check (0.4 GB)
 # OpenMP comes with gcc; clang builds without it, unless libomp-dev is there. Debian 12's clang is
 # clang-14. Runs as root or by sudo; where nothing is missing it does nothing and needs neither.
 set -eu
 
-run_packages="cmake ninja-build gcc gfortran libc6-dev pkg-config libjansson-dev libsundials-dev
-    libhdf5-dev libfftw3-dev libgsl-dev python3 python3-cffi python3-h5py python3-matplotlib python3-numpy
-    python3-tqdm"
-test_packages="g++ libcmocka-dev liggghts libliggghts-dev locales mandoc mpi-default-dev mypy python3-distributed
-    python3-mpi4py python3-pytest python3-venv valgrind"
-docs_packages="doxygen furo librsvg2-bin mandoc python3-myst-parser python3-numpydoc python3-sphinx"
+run_packages="cmake ninja-build gcc gfortran libc6-dev pkg-config libjansson-dev python3 python3-cffi
+    python3-matplotlib python3-numpy python3-tqdm"
+all_packages="$run_packages libsundials-dev libhdf5-dev libfftw3-dev libgsl-dev python3-h5py"
+package_tools="dpkg-dev file"
+test_packages="$all_packages $package_tools g++ libcmocka-dev liggghts libliggghts-dev locales mandoc mpi-default-dev mypy
+    python3-distributed python3-mpi4py python3-pytest python3-venv valgrind"
+docs_packages="$all_packages doxygen furo librsvg2-bin mandoc python3-myst-parser python3-numpydoc python3-sphinx"
 case "${1-run}" in
 run) packages=$run_packages ;;
-test) packages="$run_packages $test_packages" ;;
-ci) packages="$run_packages $test_packages make clang libclang-rt-14-dev llvm" ;;
-package) packages="$run_packages dpkg-dev file" ;;
-docs) packages="$run_packages $docs_packages" ;;
-site-check) packages="$run_packages $docs_packages chromium chromium-driver fonts-dejavu-core python3-selenium" ;;
+all) packages=$all_packages ;;
+test) packages=$test_packages ;;
+ci) packages="$test_packages make clang libclang-rt-14-dev llvm" ;;
+package) packages="$all_packages $package_tools" ;;
+docs) packages=$docs_packages ;;
+site-check) packages="$docs_packages chromium chromium-driver fonts-dejavu-core python3-selenium" ;;
 *)
-    echo "install-packages: unknown kind '$1': must be run, test, ci, package, docs or site-check" >&2
+    echo "install-packages: unknown kind '$1': must be run, all, test, ci, package, docs or site-check" >&2
     exit 2
     ;;
 esac

@@ -1,25 +1,99 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The Debian package that cpack makes: one .deb with all that the install target installs.
-set(CPACK_GENERATOR DEB)
+# The Debian packages that cpack makes, each of the files of one COMPONENT of the installation. bem
+# and fit, which are under the GPL, are apart, and so are the components that need large libraries.
+find_program(RESTITUTE_DPKG dpkg DOC "dpkg, for Debian packages")
+mark_as_advanced(RESTITUTE_DPKG)
+set(CPACK_GENERATOR TGZ)
+if(RESTITUTE_DPKG)
+  set(CPACK_GENERATOR DEB)
+endif()
+set(CPACK_PROJECT_CONFIG_FILE "${CMAKE_CURRENT_LIST_DIR}/restitute-package-options.cmake")
 set(CPACK_PACKAGE_NAME restitute)
-set(CPACK_PACKAGE_CONTACT "The restitute developers <restitute@localhost>" CACHE STRING "Maintainer named in the package")
+set(CPACK_PACKAGE_CONTACT "The restitute developers <restitute@localhost>" CACHE STRING "Maintainer named in the packages")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
+set(CPACK_VERBATIM_VARIABLES ON)
+
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # each package has its own
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_COMPONENTS_ALL "")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${RESTITUTE_COMPONENTS})
 list(TRANSFORM CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS PREPEND "${PROJECT_BINARY_DIR}/src/")
 list(APPEND CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/src")
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_CURRENT_LIST_DIR}/restitute-package-copyright.cmake")
+set(CPACK_RESTITUTE_SOURCE_DIR "${PROJECT_SOURCE_DIR}")
+
+# restitute_describe_package(<component> <name> SECTION <section> ABOUT <title> <text> [DEPENDS
+# <package>...] [RECOMMENDS <package>...] [SUGGESTS <package>...] [ANY_MACHINE])
+macro(restitute_describe_package component name)
+  cmake_parse_arguments(package "ANY_MACHINE" "SECTION" "ABOUT;DEPENDS;RECOMMENDS;SUGGESTS" ${ARGN})
+  string(TOUPPER "${component}" part)
+  list(APPEND CPACK_COMPONENTS_ALL ${component})
+  list(JOIN package_ABOUT "\n" CPACK_COMPONENT_${part}_DESCRIPTION)
+  set(CPACK_DEBIAN_${part}_PACKAGE_NAME "${name}")
+  set(CPACK_DEBIAN_${part}_PACKAGE_SECTION "${package_SECTION}")
+  foreach(relation IN ITEMS DEPENDS RECOMMENDS SUGGESTS)
+    list(JOIN package_${relation} ", " CPACK_DEBIAN_${part}_PACKAGE_${relation})
+  endforeach()
+  if(package_ANY_MACHINE)
+    set(CPACK_DEBIAN_${part}_PACKAGE_ARCHITECTURE all)
+    set(CPACK_DEBIAN_${part}_PACKAGE_SHLIBDEPS OFF)
+  endif()
+endmacro()
+
+set(this_version "(= ${PROJECT_VERSION})")
+set(library "librestitute${PROJECT_VERSION_MAJOR}")
+restitute_describe_package(
+  library ${library} SECTION libs
+  ABOUT "oblique impact of viscoelastic spheres: libraries"
+        "Normal and tangential restitution of viscoelastic spheres that hit obliquely, with friction."
+        "This package has the shared libraries.")
+restitute_describe_package(
+  development librestitute-dev SECTION libdevel
+  ABOUT "oblique impact of viscoelastic spheres: for C, C++ and Fortran"
+        "Headers and Fortran modules of librestitute, and what CMake and pkg-config need to find it."
+  DEPENDS "${library} ${this_version}"
+  SUGGESTS "gfortran" "pkg-config" "restitute-doc")
+set(about_bem "boundary elements (GPL)" "The method bem of librestitute, on FFTW: under the GPL, version 2 or later.")
+set(about_cvode "the method cvode" "The method cvode of librestitute, on SUNDIALS: impacts with their events.")
+set(about_fit "constants from measurements (GPL)"
+              "Material constants from drop tests and DMA, on GSL: under the GPL, version 3 or later.")
+set(about_table_files "HDF5 files of tables" "Tables of restitution coefficients in HDF5 files, from C and Fortran.")
+set(apart "")
+foreach(component IN LISTS RESTITUTE_APART)
+  if(component IN_LIST RESTITUTE_COMPONENTS)
+    string(REPLACE "_" "-" name "librestitute-${component}")
+    list(APPEND apart ${name})
+    list(TRANSFORM about_${component} PREPEND "oblique impact of viscoelastic spheres: " AT 0)
+    restitute_describe_package(
+      ${component} ${name} SECTION libs
+      ABOUT ${about_${component}} "The headers and the Fortran module want librestitute-dev."
+      DEPENDS "${library} ${this_version}"
+      SUGGESTS "librestitute-dev")
+  endif()
+endforeach()
 if(RESTITUTE_WITH_PYTHON)
-  set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3, python3-numpy, python3-cffi")
-  set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-matplotlib, python3-h5py, python3-tqdm")
+  restitute_describe_package(
+    python restitute SECTION science
+    ABOUT "oblique impact of viscoelastic spheres: command and Python package"
+          "The command restitute and the Python package restitute: restitution coefficients, tables,"
+          "maps and figures of viscoelastic spheres that hit obliquely, with friction."
+    DEPENDS "${library} ${this_version}" "restitute-data ${this_version}" "python3 (>= 3.9)" python3-numpy python3-cffi
+    RECOMMENDS python3-matplotlib python3-h5py python3-tqdm
+    SUGGESTS ${apart} restitute-doc python3-distributed python3-mpi4py)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_PROVIDES "python3-restitute ${this_version}")
 endif()
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gfortran, python3-distributed, python3-mpi4py")
-set(CPACK_PACKAGE_DESCRIPTION
-    "Restitution pairs of viscoelastic spheres that hit obliquely, with
-friction, by the Method of Dimensionality Reduction: the command
-restitute, the Python package, the libraries for C and C++, the modules
-for Fortran.")
+restitute_describe_package(
+  data restitute-data ANY_MACHINE SECTION science
+  ABOUT "oblique impact of viscoelastic spheres: materials and reference impacts"
+        "Material constants with their sources, which restitute finds by name, and reference impacts"
+        "to test other programs with.")
+restitute_describe_package(
+  doc restitute-doc ANY_MACHINE SECTION doc
+  ABOUT "oblique impact of viscoelastic spheres: pages and examples"
+        "Manual, theory, records of accuracy and run time, examples in Python, C and Fortran.")
 include(CPack)

@@ -31,21 +31,23 @@ def __getattr__(name):
 
 
 def _load(component):
-    path = LIBRARIES.get(component)
-    if path is None:
+    if not available(component):
         raise errors.MissingComponent(f"the component {component} is not installed with this "
                                       "package")
     # Materials and threads of OpenMP may outlive the library at the interpreter's end: it stays.
-    return ffi.dlopen(os.path.join(os.path.dirname(__file__), path),
-                      ffi.RTLD_NOW | ffi.RTLD_NODELETE)
+    return ffi.dlopen(_path(component), ffi.RTLD_NOW | ffi.RTLD_NODELETE)
 
 
-core = _load("core")  # first, so that components find it loaded
+def _path(component):
+    return os.path.join(os.path.dirname(__file__), LIBRARIES[component])
 
 
 def available(component):
-    """Whether a component is installed with this package."""
-    return component in LIBRARIES
+    """Whether a component is installed with this package. Debian packages bring some apart."""
+    return component in LIBRARIES and os.path.exists(_path(component))
+
+
+core = _load("core")  # first, so that components find it loaded
 
 
 def text(chars):
