@@ -28,9 +28,9 @@ set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_CURRENT_LIST_DIR}/restitute-package-copyrig
 set(CPACK_RESTITUTE_SOURCE_DIR "${PROJECT_SOURCE_DIR}")
 
 # restitute_describe_package(<component> <name> SECTION <section> ABOUT <title> <text> [DEPENDS
-# <package>...] [RECOMMENDS <package>...] [SUGGESTS <package>...] [ANY_MACHINE])
+# <package>...] [RECOMMENDS <package>...] [SUGGESTS <package>...] [NO_BINARIES] [ANY_MACHINE])
 macro(restitute_describe_package component name)
-  cmake_parse_arguments(package "ANY_MACHINE" "SECTION" "ABOUT;DEPENDS;RECOMMENDS;SUGGESTS" ${ARGN})
+  cmake_parse_arguments(package "NO_BINARIES;ANY_MACHINE" "SECTION" "ABOUT;DEPENDS;RECOMMENDS;SUGGESTS" ${ARGN})
   string(TOUPPER "${component}" part)
   list(APPEND CPACK_COMPONENTS_ALL ${component})
   list(JOIN package_ABOUT "\n" CPACK_COMPONENT_${part}_DESCRIPTION)
@@ -41,6 +41,8 @@ macro(restitute_describe_package component name)
   endforeach()
   if(package_ANY_MACHINE)
     set(CPACK_DEBIAN_${part}_PACKAGE_ARCHITECTURE all)
+  endif()
+  if(package_NO_BINARIES)
     set(CPACK_DEBIAN_${part}_PACKAGE_SHLIBDEPS OFF)
   endif()
 endmacro()
@@ -53,7 +55,7 @@ restitute_describe_package(
         "Normal and tangential restitution of viscoelastic spheres that hit obliquely, with friction."
         "This package has the shared libraries.")
 restitute_describe_package(
-  development librestitute-dev SECTION libdevel
+  development librestitute-dev NO_BINARIES SECTION libdevel
   ABOUT "oblique impact of viscoelastic spheres: for C, C++ and Fortran"
         "Headers and Fortran modules of librestitute, and what CMake and pkg-config need to find it."
   DEPENDS "${library} ${this_version}"
@@ -78,7 +80,7 @@ foreach(component IN LISTS RESTITUTE_APART)
 endforeach()
 if(RESTITUTE_WITH_PYTHON)
   restitute_describe_package(
-    python restitute SECTION science
+    python restitute NO_BINARIES SECTION science
     ABOUT "oblique impact of viscoelastic spheres: command and Python package"
           "The command restitute and the Python package restitute: restitution coefficients, tables,"
           "maps and figures of viscoelastic spheres that hit obliquely, with friction."
@@ -88,12 +90,12 @@ if(RESTITUTE_WITH_PYTHON)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_PROVIDES "python3-restitute ${this_version}")
 endif()
 restitute_describe_package(
-  data restitute-data ANY_MACHINE SECTION science
+  data restitute-data ANY_MACHINE NO_BINARIES SECTION science
   ABOUT "oblique impact of viscoelastic spheres: materials and reference impacts"
         "Material constants with their sources, which restitute finds by name, and reference impacts"
         "to test other programs with.")
 restitute_describe_package(
-  doc restitute-doc ANY_MACHINE SECTION doc
+  doc restitute-doc ANY_MACHINE NO_BINARIES SECTION doc
   ABOUT "oblique impact of viscoelastic spheres: pages and examples"
         "Manual, theory, records of accuracy and run time, examples in Python, C and Fortran.")
 include(CPack)

@@ -139,7 +139,7 @@ static=""
 [ "$kind" = shared ] || static=--static
 # shellcheck disable=SC2046 # lists of words
 "$CC" -o user/by_pkg_config "$SOURCE_DIR/tests/consume/project/consumer.c" \
-    $(pkg-config --cflags --libs $static restitute) -lm
+    $(pkg-config --cflags --libs $static restitute)
 user/by_pkg_config
 for component in table table_files; do
     [ -f "$PKG_CONFIG_PATH/restitute-$component.pc" ] || continue
