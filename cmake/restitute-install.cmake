@@ -104,7 +104,7 @@ if(RESTITUTE_WITH_PYTHON)
   install(FILES "${PROJECT_SOURCE_DIR}/docs/restitute.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT python)
 endif()
 
-# The pages with their figures, and the examples, in folders as here so that links between them hold.
+# The pages with their figures, and the examples, in folders as here: links between them hold.
 install(FILES "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
         DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT doc)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT doc

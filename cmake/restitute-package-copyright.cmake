@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Run by cpack when the files of the packages lie side by side: writes the copyright of each. bem and
-# fit are under the licences of what they link.
+# Run by cpack when the files of the packages lie side by side: writes the copyright of each. bem
+# and fit are under the licences of what they link.
 foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   if(NOT IS_DIRECTORY "${CPACK_TEMPORARY_DIRECTORY}/${component}")
     continue() # an archive of all files has one copyright, that of the installation
