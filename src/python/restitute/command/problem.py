@@ -213,7 +213,7 @@ def read_method(text, place):
         return text
     among = f"must be among {', '.join(methods())}{did_you_mean(text, methods())}"
     if text in METHODS:
-        part = METHODS[text][0]
+        part = METHODS[text]
         needs = {"cvode": "SUNDIALS; Debian: libsundials-dev", "bem": "FFTW; Debian: libfftw3-dev"}
         raise Refusal(f'{place} = "{text}": the component {part} is not in this build '
                       f"({needs[part]}); {among}")
