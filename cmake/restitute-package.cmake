@@ -53,7 +53,8 @@ restitute_describe_package(
   library ${library} SECTION libs
   ABOUT "oblique impact of viscoelastic spheres: libraries"
         "Normal and tangential restitution of viscoelastic spheres that hit obliquely, with friction."
-        "This package has the shared libraries.")
+        "This package has the shared libraries."
+  RECOMMENDS "restitute-data ${this_version}")
 restitute_describe_package(
   development librestitute-dev NO_BINARIES SECTION libdevel
   ABOUT "oblique impact of viscoelastic spheres: for C, C++ and Fortran"
@@ -88,6 +89,10 @@ if(RESTITUTE_WITH_PYTHON)
     RECOMMENDS python3-matplotlib python3-h5py python3-tqdm
     SUGGESTS ${apart} restitute-doc python3-distributed python3-mpi4py)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_PROVIDES "python3-restitute ${this_version}")
+  # The byte code of the Python package comes and goes with it.
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${CMAKE_CURRENT_LIST_DIR}/debian/postinst"
+                                                "${CMAKE_CURRENT_LIST_DIR}/debian/prerm")
 endif()
 restitute_describe_package(
   data restitute-data ANY_MACHINE NO_BINARIES SECTION science
