@@ -67,6 +67,10 @@ def _constants(material):
         rows += [("shear modulus after long times", _pascal(series.equilibrium_modulus)),
                  ("relaxation times", f"{len(series.modulus)}: {low:.3g} s to {high:.3g} s"
                   if len(series.modulus) > 1 else f"{low:.3g} s")]
+    if np.isfinite(material.window[1]):
+        rows.append(("measured between", "{:.2g} s and {:.2g} s".format(*material.window)))
+    if np.isfinite(material.temperature):
+        rows.append(("temperature", f"{material.temperature:g} °C"))
     if series.parallel_viscosity > 0:
         rows.append(("viscosity", _number(series.parallel_viscosity) + " Pa s"))
     if window:

@@ -73,6 +73,8 @@ components=core
 "$CMAKE" -S "$SOURCE_DIR/tests/consume/project" -B user -G "$GENERATOR" -DCMAKE_PREFIX_PATH="$prefix" \
     -DCMAKE_C_COMPILER="$CC" -DCONSUMER_COMPONENTS="$components"
 "$CMAKE" --build user
+# A static library lies in the program, and the folder of materials beside that is none.
+[ "$kind" = shared ] || export RESTITUTE_MATERIALS="$prefix/share/restitute/materials"
 user/consumer
 user/consumer_cxx
 [ "$WITH_FILES" = OFF ] || user/consumer_files "$SOURCE_DIR/src/materials/polyisobutylene.json"

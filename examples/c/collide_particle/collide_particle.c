@@ -33,7 +33,7 @@ int main(void)
     printf("ez = %.3f, ex = %.3f\n", result.ez, result.ex);
     printf("velocity%8.3f%8.3f%8.3f\n", ball.velocity[0], ball.velocity[1], ball.velocity[2]);
     printf("spin    %8.2f%8.2f%8.2f\n", ball.spin[0], ball.spin[1], ball.spin[2]);
-    for (int flag = 1; flag <= RESTITUTE_FLAG_COUPLED; flag *= 2) /* exceeded limits of the model */
+    for (int flag = 1; flag <= RESTITUTE_FLAG_UNMEASURED; flag *= 2) /* exceeded limits of the model */
         if (result.flags & flag) printf("note: %s\n", restitute_flag_text(flag));
     restitute_solver_destroy(solver);
     restitute_material_destroy(rubber);

@@ -35,7 +35,7 @@ program collide_particle
   print "(2(a, f5.3))", "ez = ", result%ez, ", ex = ", result%ex
   print "(a, 3f8.3)", "velocity", ball%velocity
   print "(a, 3f8.2)", "spin    ", ball%spin
-  do bit = 0, 3 ! exceeded limits of the model
+  do bit = 0, 4 ! exceeded limits of the model
     if (btest(result%flags, bit)) print "(2a)", "note: ", restitute_flag_text(2**bit)
   end do
   call restitute_solver_destroy(solver)

@@ -1,5 +1,5 @@
-/* A user's program that reads the material file named by its argument. Exit status 0 if it holds a
- * solid.
+/* A user's program that reads the material file named by its argument and steel by name, which it
+ * finds beside the shared library. Exit status 0 if both are solids.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdio.h>
 
@@ -18,6 +18,11 @@ int main(int argc, char **argv)
         return 1;
     }
     printf("%s: %zu Prony terms\n", argv[1], restitute_material_terms(material));
+    restitute_material_destroy(material);
+    if (restitute_material_by_name("steel", &material, NULL, &error) != RESTITUTE_OK) {
+        fprintf(stderr, "%s\n", error.message);
+        return 1;
+    }
     restitute_material_destroy(material);
     return 0;
 }

@@ -86,7 +86,8 @@ RESTITUTE_SINCE_0_1 int restitute_material_read(const char *path, restitute_mate
  *  them.
  *
  *  It is looked for in the folder that the environment variable RESTITUTE_MATERIALS names, or else
- *  in share/restitute/materials beside this library.
+ *  in share/restitute/materials beside this library. A program with the static library needs the
+ *  variable, unless it is installed beside that folder itself.
  *
  *  @param name  as "polyisobutylene": the name of the file without .json
  *  @return as @ref restitute_material_read; ERROR_DOMAIN for an unknown name: `error` lists the
