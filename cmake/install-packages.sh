@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs the Debian packages that are missing: cmake/install-packages.sh
-# [run|all|test|ci|package|docs|site-check]
+# [run|all|lammps|test|ci|package|docs|site-check]
 #   run      for the Python package, the command and its figures (the default)
 #   all      run, and the libraries of the components cvode, table_files, bem and fit
+#   lammps   all, and what building the adapter for LAMMPS needs
 #   test     all, and what the tests need
 #   ci       test, make, and a second compiler with its sanitizers
 #   package  all, and what cpack needs to make Debian packages
@@ -23,13 +24,14 @@ docs_packages="$all_packages doxygen furo librsvg2-bin mandoc python3-myst-parse
 case "${1-run}" in
 run) packages=$run_packages ;;
 all) packages=$all_packages ;;
+lammps) packages="$all_packages g++ python3-venv" ;;
 test) packages=$test_packages ;;
 ci) packages="$test_packages make clang libclang-rt-14-dev llvm" ;;
 package) packages="$all_packages $package_tools" ;;
 docs) packages=$docs_packages ;;
 site-check) packages="$docs_packages chromium chromium-driver fonts-dejavu-core python3-selenium" ;;
 *)
-    echo "install-packages: unknown kind '$1': must be run, all, test, ci, package, docs or site-check" >&2
+    echo "install-packages: unknown kind '$1': must be run, all, lammps, test, ci, package, docs or site-check" >&2
     exit 2
     ;;
 esac
