@@ -147,7 +147,7 @@ class Foundation:
     def advance(self):
         """One step; False once no element touches and the sphere recedes."""
         h = self.step
-        before, self.d = self.d, self.d + h * self.v
+        self.d = self.d + h * self.v
         depth = self.d - self.gap
         new = ~self.entered & (depth > 0)
         self.entered |= new

@@ -173,6 +173,14 @@ def test_limits_that_are_passed_are_counted_in_one_warning_each():
         pair(RUBBER, **{**BALL, "speed": 1})
 
 
+def test_package_and_library_say_alike_what_a_large_contact_costs():
+    for speed, known in (0.2, "0.02"), (1, "0.04"), (1e5, "1"):
+        with pytest.warns(ModelLimitWarning) as caught:
+            result = pair(RUBBER, **{**BALL, "speed": speed}, speed_limit=np.inf)
+        cost = f"(ez is known to about +-{known})"
+        assert str(caught[0].message).endswith(cost) and result.message().endswith(cost)
+
+
 def test_a_missed_tolerance_is_a_warning():
     with pytest.warns(ToleranceWarning, match="1 of 2 impacts: .* above the tolerance 1e-06"):
         result = pair(psi=[0.5, np.inf], delta1=[1, 0], gamma=1, tolerance=1e-6, max_work=1e-3)
