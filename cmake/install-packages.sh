@@ -37,7 +37,8 @@ site-check) packages="$docs_packages chromium chromium-driver fonts-dejavu-core 
 esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
-    echo "install-packages: no dpkg and apt-get here; what Debian calls these is needed: $packages" >&2
+    echo "install-packages: no dpkg and apt-get here; what Debian calls these is needed: $packages;" \
+        "docs/install.md has the names of Fedora and Arch" >&2
     exit 0 # they may be there under other names; if not, CMake says what is missing
 fi
 
