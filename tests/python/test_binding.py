@@ -95,6 +95,6 @@ def test_records_of_numpy_are_structs_of_c_with_their_defaults():
 
 def test_a_failed_call_is_an_exception_with_its_status():
     handle = ffi.new("restitute_material **")
-    with pytest.raises(ValueError, match="shear_modulus.* = -1") as caught:
+    with pytest.raises(ValueError, match="^modulus .* = -1") as caught:
         _library.call(_library.core.restitute_material_elastic, -1.0, 0.5, handle)
     assert caught.value.status == _library.core.RESTITUTE_ERROR_DOMAIN

@@ -60,3 +60,13 @@ def test_bodies_that_do_not_touch_are_refused_or_nan():
     assert pairs.message(1) in str(caught.value)
     with pytest.raises(TypeError, match="'psi' is no keyword of collide"):
         collide(RUBBER, ball, FLOOR, psi=1)
+
+
+def test_vectors_of_other_lengths_and_unknown_keywords_are_refused_by_name():
+    ball = Body((0, 0, 0.01), (0, 0, -1), radius=0.01, mass=1)
+    with pytest.raises(DomainError, match=r"^first.velocity: has the shape \(2,\), must end in 3"):
+        collide(RUBBER, ball._replace(velocity=(0, 1)), FLOOR)
+    with pytest.raises(DomainError, match="^second.radius = 'wide': must be a number"):
+        collide(RUBBER, ball, FLOOR._replace(radius="wide"))
+    with pytest.raises(TypeError, match="'mu' is no keyword of collide; did you mean friction"):
+        collide(RUBBER, ball, FLOOR, mu=0.3)

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import restitute
+from restitute import ContactLaw, DomainError
 
 pytestmark = pytest.mark.component("contact")
 MASS, RADIUS, FRICTION = 5e-6, 1e-3, 0.3
@@ -116,7 +117,7 @@ def test_times_broadcast_and_fall_with_the_fifth_root_of_the_speed():
 def test_options_are_checked_by_name(rubber):
     with pytest.raises(restitute.DomainError, match="elements = 9"):
         restitute.ContactLaw(rubber, elements=9)
-    with pytest.raises(TypeError, match="'element' is not one of deformable, elements"):
+    with pytest.raises(TypeError, match="'element' is no keyword here; did you mean elements"):
         restitute.ContactLaw(rubber, element=8)
     with pytest.raises(restitute.DomainError, match="partner = 'wall'"):
         restitute.ContactLaw(rubber, partner="wall")
@@ -129,7 +130,7 @@ def test_options_are_checked_by_name(rubber):
 
 def test_members_of_a_motion_are_checked_by_name(rubber):
     law = restitute.ContactLaw(rubber)
-    with pytest.raises(TypeError, match="'frict' is not one of overlap, normal"):
+    with pytest.raises(TypeError, match="'frict' is no keyword of step; did you mean friction"):
         law.step(law.states(1), 1e-6, overlap=1e-6, radius=RADIUS, frict=0.3)
     with pytest.raises(restitute.DomainError, match="motions: 3 are given, must be 1"):
         law.step(law.states(1), 1e-6, law.motions(3))
@@ -140,3 +141,18 @@ def test_both_bodies_deform_at_half_the_stiffness(rubber):
     soft, hard = (law.step(law.states(1), 1e-6, **motion).normal[0] for law in
                   (restitute.ContactLaw(rubber, partner=p) for p in ("same", "rigid")))
     assert soft == pytest.approx(hard / 2, rel=1e-12)
+
+
+def test_a_law_takes_a_material_by_name_and_refuses_what_is_none():
+    assert ContactLaw("steel").state_size == ContactLaw(restitute.material("steel")).state_size
+    with pytest.raises(DomainError, match="^material = 5: must be a Material, its name or a file"):
+        ContactLaw(5)
+    law = ContactLaw("steel")
+    with pytest.raises(DomainError, match=r"^friction = .*: is a masked|^friction: is a masked"):
+        law.step(law.states(1), 1e-6, friction=np.ma.masked_array([0.3], [True]))
+    with pytest.raises(DomainError, match=r"^overlap: has the shape \(2,\), must broadcast to"):
+        law.step(law.states(3), 1e-6, overlap=[1, 2])
+    with pytest.raises(DomainError, match=r"^step \(s\) = 0: must be in"):
+        law.step(law.states(1), 0)
+    with pytest.raises(DomainError, match="shapes do not broadcast: mass"):
+        law.time_scale([1, 2], 1, [1, 2, 3])

@@ -236,3 +236,41 @@ def test_the_command_takes_rebound_ratios_hardness_and_columns_of_the_scene(
     assert main([*fit, "modulus1=1e6"]) == 2
     assert capfd.readouterr().err.endswith(
         "drop.csv line 3 (row 2): mass_kg is empty: must be finite and > 0\n")
+
+
+@pytest.mark.parametrize(("change", "kind", "words"), [
+    (dict(velocity=1), TypeError, "'velocity' is no keyword of fit_drop_test; did you mean speed"),
+    (dict(height=1), TypeError, "did you mean drop_height"),
+    (dict(sigma_e=1), TypeError, "did you mean sigma_ez"),
+    (dict(speed=[1, 2, 3]), ValueError, r"shapes do not broadcast: .*speed \(3,\)"),
+    (dict(ez=np.ma.masked_array([0.5, 0.6], [0, 1])), ValueError, "^ez: is a masked array"),
+    (dict(ez=["a", "b"]), ValueError, "^ez = .*: must be a number"),
+    (dict(known={"modulus1": -1}), ValueError, "^known: modulus1 = -1: must be in"),
+    (dict(known={"modulus": 1}), ValueError, "'modulus' is no .* did you mean modulus1"),
+    (dict(confidence=2), ValueError, "^confidence = 2: must be in"),
+    (dict(starts=1.5), ValueError, "^starts = 1.5: must be a whole number"),
+    (dict(partner=5), ValueError, "^partner = 5: must be a Material"),
+    (dict(wlf=8.86), ValueError, "^wlf = 8.86: must be C1 and C2"),
+    (dict(model="prony", terms=[-1]), ValueError, r"^terms\[0\] = -1: must be > 0"),
+    (dict(loss="cubes"), ValueError, "^loss = 'cubes': must be one of squares"),
+])
+def test_keywords_and_values_of_fits_are_refused_by_their_names(change, kind, words):
+    given = {**dict(ez=[0.5, 0.6], speed=[1, 2], model="kelvin_voigt", radius=0.01, mass=0.1),
+             **change}
+    with pytest.raises(kind, match=words):
+        restitute.fit_drop_test(**given)
+
+
+def test_rows_of_moduli_that_do_not_fit_together_are_refused():
+    with pytest.raises(restitute.DomainError, match=r"shapes do not broadcast: frequency \(3,\)"):
+        restitute.fit_dma([1, 2, 3], [1, 2], 1)
+    with pytest.raises(TypeError, match="'noize' is no keyword here; did you mean noise"):
+        restitute.fit_dma([1, 2, 3], 1, 1, noize=0.1)
+
+
+def test_a_partner_may_be_given_by_its_name(rubber):
+    speed, pair = drops(rubber, 6, partner="steel")
+    given = dict(ez=pair.ez, contact_time=pair.contact_time, speed=speed, **BALL)
+    named = restitute.fit_drop_test(**given, partner="steel")
+    same = restitute.fit_drop_test(**given, partner=restitute.material("steel"))
+    assert np.array_equal(named.value, same.value)

@@ -104,6 +104,9 @@ def test_energies_add_up():
     ({"speed": None}, "give speed"),
     ({"tangential_speed": 1}, "give speed"),
     ({"density2": 5}, "density2 needs a partner sphere"),
+    ({"density": None}, "^density or mass is missing"),
+    ({"delta": 5}, "'delta' .* did you mean delta1"),
+    ({"velocity": 5}, "'velocity' .* did you mean speed"),
     ({"time_shift": 2, "partner": RUBBER}, "time_shift beside")])
 def test_keywords_that_do_not_fit_together_are_refused(keywords, words):
     with pytest.raises(TypeError, match=words):
@@ -117,13 +120,21 @@ def test_keywords_that_do_not_fit_together_are_refused(keywords, words):
     ({"angle": [np.inf, 0]}, r"impacts\[0\]: angle = inf: must be"),
     ({"speed": 1e999, "angle": 0.0}, "^speed = inf: must be finite"),
     ({"radius2": 1, "density2": -1}, r"^density2 = -1: must be > 0 \(inf: held fast\)"),
-    ({"density": None}, "^density or mass is missing"),
     ({"friction": [0, -0.1]}, r"impacts\[1\]: friction = -0.1: must be"),
     ({"radius": "wide"}, "radius = 'wide': must be a number"),
-    ({"angle": [1, 2], "spin": [1, 2, 3]}, r"do not broadcast: .*spin1 \(3,\)"),
+    ({"radius": True}, "radius = True: must be a number"),
+    ({"spin": 10**400}, "spin = 1000.*: must be a number"),
+    ({"speed": np.datetime64("2020-01-01")}, "speed = .*2020-01-01.*: must be a number"),
+    ({"angle": np.ma.masked_equal([1, 2], 2)}, r"angle: is a masked array; take \.filled"),
+    ({"radius": 1e200}, r"^radius \(m\) = 1e\+200: must be"),
+    ({"chunk": 0}, "chunk = 0: must be a whole number in"),
+    ({"executor": 5}, "executor = 5: must be a concurrent.futures.Executor or"),
+    ({"partner": 5}, "partner = 5: must be a Material, its name or a file"),
+    ({"method": ["sync"]}, r"method = \['sync'\]: must be one of"),
+    ({"angle": [1, 2], "spin": [1, 2, 3]}, r"do not broadcast: .*spin \(3,\)"),
     ({"tolerance": 1}, "tolerance = 1: must be in"),
-    ({"threads": 1.5}, "threads = 1.5: is no number of its kind"),
-    ({"method": "sinc"}, "'sinc': did you mean sync"),
+    ({"threads": 1.5}, "threads = 1.5: must be a whole number"),
+    ({"method": "sinc"}, "'sinc'; did you mean sync"),
     ({"on_error": "ignore"}, "on_error = 'ignore'"),
     ({"time_shift": -1}, "time_shift = -1")])
 def test_values_out_of_range_are_refused_with_value_place_and_range(keywords, words):
@@ -232,8 +243,9 @@ def test_a_history_ends_with_the_pair():
     assert run.result.ledger.friction_x > 0 and run.events is None is run.fields
     with pytest.raises(DomainError, match=r"has the shape \(2,\), must be one impact"):
         restitute.history(psi=[1, 2])
-    with pytest.raises(DomainError, match="samples = 1: must be in"):
-        restitute.history(psi=1, samples=1)
+    for samples in (1, 10.5):
+        with pytest.raises(DomainError, match=f"^samples = {samples}: must be a whole number in"):
+            restitute.history(psi=1, samples=samples)
 
 
 @pytest.mark.component("cvode")

@@ -33,7 +33,7 @@ def test_a_drawn_impact_has_the_numbers_that_it_was_drawn_for(numbers):
     random = Random(1)
     for _ in range(20):
         row = draw(random, *numbers)
-        solid = restitute.materials.solids(*(row.pop(name) for name in (
+        solid = restitute.solids(*(row.pop(name) for name in (
             "modulus1", "modulus2", "viscosity", "poisson_ratio")))[()]
         found = restitute.scenes.Impacts(solid, **row).numbers()
         assert found.chi == pytest.approx(7 / 6) and found.psi == pytest.approx(psi)

@@ -278,3 +278,15 @@ def test_a_fit_of_moduli_is_drawn_over_the_frequency_with_relative_residuals():
     fitted = fit.material.loss_modulus(2 * np.pi * frequency)
     assert np.allclose(second.get_lines()[1].get_ydata(), moduli[1] / fitted - 1)
     assert first.get_yscale() == "log" and legend(second) == ["storage", "loss"]
+
+
+def test_axes_that_do_not_fit_the_pairs_are_refused(pairs):
+    DomainError = restitute.DomainError
+    with pytest.raises(DomainError, match=r"^x: has the shape \(4,\), must broadcast to"):
+        plot.map([1, 2, 3, 4], ANGLE, pairs)
+    with pytest.raises(DomainError, match=r"^curves: has the shape \(7,\), must broadcast to"):
+        plot.lines(SPEED, pairs, curves=np.arange(7))
+    with pytest.raises(DomainError, match="^map: .* pairs are no grid of 1 values of x by"):
+        plot.map(1, ANGLE, pairs)
+    with pytest.raises(DomainError, match="^quantity = 'e_z'.*ez"):
+        plot.lines(SPEED, pairs, "e_z")

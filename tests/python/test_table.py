@@ -53,9 +53,9 @@ def test_one_pair_is_of_numbers_and_no_pairs_are_none(table):
 
 
 def test_speeds_out_of_range_are_refused_by_their_place(table):
-    with pytest.raises(restitute.DomainError, match=r"normal_speeds\[1\].*= -1: must be in"):
+    with pytest.raises(restitute.DomainError, match=r"normal_speed\[1\].*= -1: must be in"):
         table.pair([1, -1], 0)
-    with pytest.raises(restitute.DomainError, match=r"sliding_speeds\[0\].*nan"):
+    with pytest.raises(restitute.DomainError, match=r"sliding_speed\[0\].*nan"):
         table.pair([1, 1], [np.nan, 0])
 
 
@@ -94,7 +94,7 @@ def test_other_sizes_and_frictions_are_served(rubber, table):
     assert pair.flags is None
     with pytest.warns(restitute.ModelLimitWarning, match="1 of 1 normal speeds"):
         table.pair(0.5, 0, contact)
-    with pytest.raises(restitute.DomainError, match=r"scene\.material"):
+    with pytest.raises(restitute.DomainError, match="^material: must be"):
         table.contact(restitute.Material.elastic(1e6), **BALL)
     with pytest.raises(restitute.DomainError, match="chi = "):
         table.contact(**BALL, rotation_blocked=True)
@@ -152,13 +152,27 @@ def test_an_installation_without_files_says_what_else_keeps_a_table(table, monke
 def test_bad_options_and_scenes_are_refused_by_name(rubber):
     for words, change in (
             ("tolerance = 1: must be", dict(tolerance=1)),
-            ("speed .m/s. = 2 to 1", dict(speeds=(2, 1))),
+            ("speeds .m/s. = 2 to 1", dict(speeds=(2, 1))),
             ("one contact in SI units", dict(radius=[0.001, 0.002])),
             ("density = -1: must be", dict(density=-1))):
         with pytest.raises(restitute.DomainError, match=words):
             restitute.Table.build(rubber, **{**BALL, **change})
     with pytest.raises(TypeError, match="did you mean friction"):
         restitute.Table.build(rubber, radius=0.001, density=1200, fricton=0.3)
+    for speed in ("speed", "normal_speed", "spin"):
+        with pytest.raises(TypeError, match=f"'{speed}' is no keyword of a table.*see speeds"):
+            restitute.Table.build(rubber, **BALL, **{speed: 1})
+    for words, change in (("^threads = 1.5: must be a whole", dict(threads=1.5)),
+                          (r"^speeds: has the shape \(3,\)", dict(speeds=(1, 2, 3)))):
+        with pytest.raises(restitute.DomainError, match=words):
+            restitute.Table.build(rubber, **BALL, **change)
+
+
+def test_speeds_of_other_shapes_and_kinds_are_refused_by_name(table):
+    with pytest.raises(restitute.DomainError, match=r"do not broadcast: normal_speed \(2,\), slid"):
+        table.pair([0.1, 0.2], [0.1, 0.2, 0.3])
+    with pytest.raises(restitute.DomainError, match="^sliding_speed: is a masked array"):
+        table.pair(0.1, np.ma.masked_array([0.1], [True]))
 
 
 def test_a_table_that_misses_its_tolerance_warns(rubber):

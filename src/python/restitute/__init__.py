@@ -18,6 +18,7 @@ if TYPE_CHECKING:  # which names there are, for type checkers
     from restitute import paper, plot
     from restitute.citing import cite
     from restitute.collisions import Body, collide
+    from restitute.constants import shear_modulus, solids
     from restitute.contact import ContactLaw
     from restitute.errors import (
         DomainError,
@@ -33,19 +34,20 @@ if TYPE_CHECKING:  # which names there are, for type checkers
     from restitute.fitting import fit_dma, fit_drop_test
     from restitute.histories import History, history
     from restitute.impact import Pairs, pair, solve
-    from restitute.materials import Material, material, material_names, shear_modulus, solids
+    from restitute.materials import Material, material, material_names
     from restitute.scenes import Impacts, describe
     from restitute.solving import methods
     from restitute.table import Table, build_tables
 
 # Where each name comes from at run time, as above.
 _HOME = {name: module for module, names in {
-    "citing": "cite", "collisions": "Body collide", "contact": "ContactLaw",
+    "citing": "cite", "collisions": "Body collide", "constants": "shear_modulus solids",
+    "contact": "ContactLaw",
     "errors": "DomainError Error FileError FormatError MissingComponent ModelLimitWarning "
               "SolverError ToleranceWarning",
     "executor": "map_chunks", "fitting": "fit_dma fit_drop_test", "histories": "History history",
     "impact": "Pairs pair solve",
-    "materials": "Material material material_names shear_modulus solids",
+    "materials": "Material material material_names",
     "scenes": "Impacts describe", "solving": "methods", "table": "Table build_tables",
 }.items() for name in names.split()}
 __all__ = sorted([*_HOME, "paper", "plot", "version"])

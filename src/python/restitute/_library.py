@@ -55,11 +55,26 @@ def text(chars):
     return ffi.string(chars).decode("utf-8", "replace")
 
 
+# What C calls otherwise than the keywords of this package do.
+_KEYWORDS = ((r"deformable = 2: must be 1 with a material from \w+",
+              "partner = 'same': must be 'rigid' with an effective material"),
+             (r"options\.relaxation_time\b", "terms"), (r"\boptions\.wlf_c1, wlf_c2\b", "wlf"),
+             (r"\b(?:options|scene|motion|rates|contact)\.(?=\w)", ""),
+             (r"\b(radius|mass|inertia|spin)1\b", r"\1"), (r"\bn_terms = 0\b", "no terms"),
+             (r"\bshear_(?=modulus \(Pa\) = )", ""), (r"^speed(?= \(m/s\) = \S+ to )", "speeds"),
+             (r"\b(normal|sliding)_speeds\b", r"\1_speed"),
+             (r"; (use )?restitute_contact_(turn|rates_set)[a-z ]*", ""),
+             (r"\brestitute_contact_(?=time_step_limit)", "ContactLaw."))
+
+
 def message_of(error):
-    """The words of a restitute_error, with numbers as short as they can be: 0.6 for
-    0.59999999999999998."""
+    """The words of a restitute_error, with the names of keywords, and with numbers as short as they
+    can be: 0.6 for 0.59999999999999998."""
+    words = text(error.message)
+    for ours, keyword in _KEYWORDS:
+        words = re.sub(ours, keyword, words)
     long_number = r"(?<=[ \[(-])\d+\.\d{14,}(e[-+]\d+)?(?=[]:,;) ]|$)"
-    return re.sub(long_number, lambda match: repr(float(match[0])), text(error.message))
+    return re.sub(long_number, lambda match: repr(float(match[0])), words)
 
 
 def string(value):
@@ -104,11 +119,19 @@ def struct(name, component="core", **members):
     value = ffi.new(f"restitute_{name} *")
     library = globals().get(component) or __getattr__(component)
     getattr(library, f"restitute_{name}_init_sized")(value, ffi.sizeof(value[0]))
+    fields = dict(ffi.typeof(value[0]).fields)
+    del fields["struct_size"]
     for member, content in members.items():
-        if not hasattr(value, member):
-            known = [one for one, _ in ffi.typeof(value[0]).fields if one != "struct_size"]
-            raise TypeError(f"'{member}' is not one of {', '.join(known)}")
-        setattr(value, member, content)
+        if member not in fields:
+            raise TypeError(f"'{member}' is no keyword here{errors.suggestion(member, fields)}")
+        real = fields[member].type.cname == "double"
+        try:
+            if real and isinstance(content, bool):
+                raise TypeError
+            setattr(value, member, content)
+        except (TypeError, OverflowError):
+            raise errors.DomainError(f"{member} = {errors.shown(content)}: must be a "
+                                     f"{'number' if real else 'whole number'}") from None
     return value
 
 

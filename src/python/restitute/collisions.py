@@ -6,11 +6,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from restitute import _library
+from restitute import _library, errors
 from restitute._library import ffi
 from restitute.impact import Pairs, report, split
-from restitute.scenes import broadcast, combine
-from restitute.solving import Solved, options, solver
+from restitute.scenes import combine
+from restitute.solving import OPTIONS, Solved, options, solver
+from restitute.values import broadcast, numbers
 
 __all__ = ["Body", "collide"]
 _VECTORS = ("position", "velocity", "spin", "normal")
@@ -30,16 +31,19 @@ class Body(NamedTuple):
 
 def records_of(first: Body, second: Body, columns: dict) -> tuple[tuple, list[np.ndarray]]:
     """The shape that bodies and columns broadcast to, and records of restitute_body, flat."""
-    bodies = [{name: np.asarray(value, float) for name, value in body._asdict().items()}
-              for body in (first, second)]
-    sizes = {f"{word}.{name}": value[..., 0] if name in _VECTORS else value
-             for word, body in zip(("first", "second"), bodies) for name, value in body.items()}
+    sizes, given = {}, {}
+    for word, body in (("first", first), ("second", second)):
+        for name, value in body._asdict().items():
+            place, value = f"{word}.{name}", numbers(f"{word}.{name}", value)
+            if name in _VECTORS and value.shape[-1:] != (3,):
+                raise errors.DomainError(f"{place}: has the shape {value.shape}, must end in 3")
+            given[word, name] = value
+            sizes[place] = value[..., 0] if name in _VECTORS else value
     shape = broadcast({**columns, **sizes})
-    records = [_library.structs("body", int(np.prod(shape))) for _ in bodies]
-    for record, values in zip(records, bodies):
-        for name, value in values.items():
-            record.reshape(shape)[name] = value
-    return shape, records
+    records = {word: _library.structs("body", int(np.prod(shape))) for word in ("first", "second")}
+    for (word, name), value in given.items():
+        records[word].reshape(shape)[name] = value
+    return shape, list(records.values())
 
 
 def after(bodies: Any, records: Any, shape: tuple, failed: Any) -> list[Body]:
@@ -91,12 +95,14 @@ def collide(material: Any, first: Body, second: Body, *, partner: Any = "rigid",
     [0.9  0.91] [0.18  0.091] [ 0. 10.  0.]
     """
     chosen, rest = split(settings)
-    if rest:
-        raise TypeError(f"'{next(iter(rest))}' is no keyword of collide")
+    for name in rest:
+        raise TypeError(f"'{name}' is no keyword of collide"
+                        f"{errors.suggestion(name, [*collide.__kwdefaults__, *OPTIONS])}")
     solids, place, deformable = combine(material, partner, 1.0)
     columns = {"material": np.array([s.address for s in solids], np.uint64)[place],
-               "deformable": deformable, "friction": friction, "touch_gap": touch_gap,
-               "wave_density": wave_density}
+               "deformable": deformable, "friction": numbers("friction", friction),
+               "touch_gap": numbers("touch_gap", touch_gap),
+               "wave_density": numbers("wave_density", wave_density)}
     shape, bodies = records_of(first, second, columns)
     count = int(np.prod(shape))
     between = _library.structs("collision", count)

@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from restitute import _library, errors
 from restitute._library import call, ffi
-from restitute.materials import Material
+from restitute.materials import as_material
+from restitute.values import broadcast, fit_shape, number, numbers, one_of
 
 __all__ = ["ContactForces", "ContactLaw"]
 
@@ -26,11 +28,11 @@ class ContactLaw:
 
     The state of a contact is a row of an array. The caller keeps it from the first overlap until
     the bodies separate. The normal points from body 1 into body 2; relative motion is 1 minus 2.
-    A law is immutable, and threads may share it.
+    A law is immutable, can be pickled, and threads may share it.
 
     Parameters
     ----------
-    material : Material
+    material : Material, name or path
     partner : "rigid" or "same"
         One body deforms, or both, of the material.
     **options
@@ -68,19 +70,22 @@ class ContactLaw:
     True
     """
 
-    def __init__(self, material: Material, *, partner: str = "rigid", **options: Any):
-        if partner not in ("rigid", "same"):
-            raise errors.DomainError(f"partner = {partner!r}: must be rigid or same")
+    def __init__(self, material: Any, *, partner: str = "rigid", **options: Any):
+        one_of("partner", partner, ("rigid", "same"))
+        self._given: tuple = (material, {"partner": partner, **options})
         members = {"deformable": 2 if partner == "same" else 1, **options}
         settings = _library.struct("contact_law_options", "contact", **members)
-        handle = ffi.new("restitute_contact_law **")
-        library = _library.contact
-        status, message = call(
-            library.restitute_contact_law_create, material._handle, settings, handle)
+        handle, library = ffi.new("restitute_contact_law **"), _library.contact
+        status, message = call(library.restitute_contact_law_create,
+                               as_material("material", material)._handle, settings, handle)
         self._handle = ffi.gc(handle[0], library.restitute_contact_law_destroy)
         self.state_size = library.restitute_contact_law_state_size(handle[0])
         if status:
             _library.warn(message, errors.ToleranceWarning)
+
+    def __reduce__(self):
+        material, keywords = self._given
+        return partial(ContactLaw, **keywords), (material,)
 
     def states(self, count: int) -> np.ndarray:
         """States of new contacts, zeros of shape (count, state_size)."""
@@ -94,15 +99,18 @@ class ContactLaw:
         mass, radius, speed : array_like
             Effective, kg and m; normal, m/s. They broadcast.
         """
-        return self._times(_library.contact.restitute_contact_time_scale, mass, radius, speed)
+        return self._times("time_scale", mass, radius, speed)
 
     def time_step_limit(self, mass: Any, radius: Any, speed: Any) -> Any:
         """Largest time step that is safe for such impacts, s: a fiftieth of the contact time."""
-        return self._times(_library.contact.restitute_contact_time_step_limit, mass, radius, speed)
+        return self._times("time_step_limit", mass, radius, speed)
 
-    def _times(self, function, *numbers):
-        arrays = np.broadcast_arrays(*(np.asarray(number, float) for number in numbers))
-        times, one = np.empty(arrays[0].shape), ffi.new("double *")
+    def _times(self, name, *given):
+        function = getattr(_library.contact, f"restitute_contact_{name}")
+        columns = {name: numbers(name, value)
+                   for name, value in zip(("mass", "radius", "speed"), given)}
+        times, one = np.empty(broadcast(columns)), ffi.new("double *")
+        arrays = [np.broadcast_to(column, times.shape) for column in columns.values()]
         for place in np.ndindex(times.shape):
             call(function, self._handle, *(array[place] for array in arrays), one)
             times[place] = one[0]
@@ -146,10 +154,11 @@ class ContactLaw:
         known = list(motions.dtype.fields or ())[1:]
         for name, value in members.items():
             if name not in known:
-                raise TypeError(f"'{name}' is not one of {', '.join(known)}")
-            motions[name] = value
+                raise TypeError(f"'{name}' is no keyword of step{errors.suggestion(name, known)}")
+            motions[name] = fit_shape(name, numbers(name, value), motions[name].shape)
         rates = _library.struct("contact_rates", "contact")
-        call(_library.contact.restitute_contact_rates_set, self._handle, step, rates)
+        call(_library.contact.restitute_contact_rates_set, self._handle, number("step", step),
+             rates)
         records = np.zeros(len(places), _library.array_type("contact_force"))
         statuses = np.zeros(len(places), np.int32)
         forces = ContactForces(records["normal"], records["tangential"])
@@ -199,7 +208,7 @@ class ContactLaw:
         """
         records = _library.structs("contact_details", len(states), "contact")
         where = _library.pointer(records, "restitute_contact_details[]")
-        radii = np.broadcast_to(radius, len(states))
+        radii = fit_shape("radius", numbers("radius", radius), (len(states),))
         for k, place in enumerate(self._places(states)):
             call(_library.contact.restitute_contact_details_get, self._handle, radii[k],
                  ffi.cast("double *", int(place)), where + k)

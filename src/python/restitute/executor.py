@@ -11,6 +11,9 @@ from concurrent.futures import BrokenExecutor, CancelledError, Future, ProcessPo
 from functools import partial
 from typing import Any
 
+from restitute.errors import DomainError, shown
+from restitute.values import whole
+
 __all__ = ["map_chunks"]
 
 
@@ -48,7 +51,10 @@ def map_chunks(function: Callable[[Any], Any], chunks: Iterable[Any], executor: 
             if progress:
                 progress(done, len(items))
         return
-    run = _Run(function, items, executor, retries)
+    if not hasattr(executor, "submit"):
+        raise DomainError(f"executor = {shown(executor)}: must be a concurrent.futures.Executor or "
+                          "a distributed.Client")
+    run = _Run(function, items, executor, whole("retries", retries, 0, 10**6))
     try:
         yield from run.results(progress)
     finally:

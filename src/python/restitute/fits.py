@@ -81,9 +81,12 @@ class DropFit(Fit):
         Of the weighted residuals; noise is nan if no degree of freedom is left.
     measured : dict of ndarray, shape (m,)
         "ez", "ex", "contact_time" (s), nan where there is none, and "normal_speed" (m/s).
+    fitted : dict of ndarray, shape (m,)
+        "ez", "ex", "contact_time" that the solid gives, measured or not.
     """
 
-    def __init__(self, struct: Any, model: str, name: str, fitter: Any, measured: dict):
+    def __init__(self, struct: Any, model: str, name: str, confidence: float, measured: dict,
+                 fitted: dict):
         n = struct.constants
         super().__init__(struct, model, name, [
             (_library.text(struct.name[k]), struct.value[k], struct.low[k], struct.high[k])
@@ -91,22 +94,11 @@ class DropFit(Fit):
         self.correlation = np.array([list(struct.correlation[k])[:n] for k in range(n)])
         self.values, self.rank, self.impacts = struct.values, struct.rank, struct.impacts
         self.noise, self.condition = struct.noise, struct.condition
-        self.measured, self._fitter, self._fitted = measured, fitter, dict[str, np.ndarray]()
-        self.confidence = fitter.options.confidence
+        self.measured, self.fitted, self.confidence = measured, fitted, confidence
         self.summary = (
             f"rms of the residuals of {self.values} values {self.rms:.3g}, noise {self.noise:.3g}; "
             f"{self.rank} constants or combinations of them determined, intervals of "
             f"{100 * self.confidence:g} %; {self.impacts} impacts solved")
-
-    @property
-    def fitted(self) -> dict[str, np.ndarray]:
-        """What the solid gives for each impact, measured or not: arrays of shape (m,)."""
-        if not self._fitted:
-            arrays = [np.empty(len(self.measured["ez"])) for _ in MEASURED]
-            self._fitter.call(_library.fit.restitute_fitter_values, self._fitter.handle,
-                              *map(_library.pointer, arrays))
-            self._fitted = dict(zip(MEASURED, arrays))
-        return self._fitted
 
     @property
     def residuals(self) -> dict[str, np.ndarray]:

@@ -13,8 +13,9 @@ import numpy as np
 from restitute import _library, errors
 from restitute._library import call, ffi
 from restitute.fits import MEASURED, DmaFit, DropFit
-from restitute.materials import Material
-from restitute.scenes import Impacts
+from restitute.materials import Material, as_material
+from restitute.scenes import SCENE, Impacts
+from restitute.values import broadcast, number, numbers, one_of
 
 __all__ = ["fit_dma", "fit_drop_test"]
 
@@ -32,13 +33,13 @@ class _Fitter:
     that Python runs handlers of signals there. What they raise ends the call and is raised here."""
 
     def __init__(self, points, options, kept):
-        self._raised, self._kept, self.options = None, kept, options
+        self._raised, self._kept, self._count = None, kept, len(points)
         self._ask = ffi.callback("int(void *)", lambda _: 0, error=1, onerror=self._note)
         options.interrupted = self._ask
         handle = ffi.new("restitute_fitter **")
         self.call(_library.fit.restitute_fitter_create, len(points),
                   _library.pointer(points, "restitute_fit_point[]"), options, handle)
-        self.handle = ffi.gc(handle[0], _library.fit.restitute_fitter_destroy)
+        self._handle = ffi.gc(handle[0], _library.fit.restitute_fitter_destroy)
 
     def _note(self, kind, value, trace):
         self._raised = value
@@ -51,11 +52,17 @@ class _Fitter:
             raise self._raised or KeyboardInterrupt() from None
 
     def run(self, progress):
-        done = ffi.new("double *")
+        """The result, and what the fitted solid gives for each point."""
+        done, result = ffi.new("double *"), _library.struct("fit_result", "fit")
         while done[0] < 1:
-            self.call(_library.fit.restitute_fitter_run, self.handle, done)
+            self.call(_library.fit.restitute_fitter_run, self._handle, done)
             if progress:
                 progress(done[0])
+        call(_library.fit.restitute_fitter_result, self._handle, result)
+        fitted = {name: np.empty(self._count) for name in MEASURED}
+        self.call(_library.fit.restitute_fitter_values, self._handle,
+                  *map(_library.pointer, fitted.values()))
+        return result, fitted
 
 
 def fit_drop_test(*, ez: Any = np.nan, ex: Any = np.nan, contact_time: Any = np.nan,
@@ -89,7 +96,7 @@ def fit_drop_test(*, ez: Any = np.nan, ex: Any = np.nan, contact_time: Any = np.
         Instead: standard deviations. The noise is then known.
     friction : array_like
         By default it is fitted where ex was measured.
-    partner : "rigid", "same", Material, or array_like of them
+    partner : "rigid", "same", Material, name, path, or array_like of them
         "same": both bodies are of the solid that is looked for.
     model : {"standard_solid", "kelvin_voigt", "maxwell", "elastic", "prony"}
     terms : array_like
@@ -128,49 +135,57 @@ def fit_drop_test(*, ez: Any = np.nan, ex: Any = np.nan, contact_time: Any = np.
     >>> fit.names, fit.is_good
     (['modulus1_pa', 'viscosity_pa_s'], True)
     """
+    for key in more:
+        if key not in (*_MEMBERS, *SCENE):
+            names = [*(fit_drop_test.__kwdefaults__ or ()), *_MEMBERS, *SCENE]
+            raise TypeError(f"'{key}' is no keyword of fit_drop_test"
+                            f"{errors.suggestion(key, names)}")
     members: dict[str, Any] = {key: more.pop(key) for key in _MEMBERS if key in more}
-    speed, ez = _heights(drop_height, rebound_height, rebound_ratio, speed, ez)
-    columns = {"ez": ez, "ex": ex, "contact_time": contact_time, "temperature": temperature}
-    sigmas = {"ez": sigma_ez, "ex": sigma_ex, "contact_time": sigma_contact_time}
-    members["noise_known"] = any(sigma is not None for sigma in sigmas.values())
-    if weight is not None:
+    given = {"ez": ez, "ex": ex, "contact_time": contact_time, "temperature": temperature,
+             "sigma_ez": sigma_ez, "sigma_ex": sigma_ex, "sigma_contact_time": sigma_contact_time,
+             "weight": weight, "speed": speed, "friction": friction, "drop_height": drop_height,
+             "rebound_height": rebound_height, "rebound_ratio": rebound_ratio}
+    given = {key: numbers(key, value) for key, value in given.items() if value is not None}
+    broadcast(given)
+    _heights(given)
+    members["noise_known"] = any(f"sigma_{what}" in given for what in MEASURED)
+    if "weight" in given:
         if members["noise_known"]:
             raise TypeError("weight and sigma_... are given: give one kind")
+        weight = given.pop("weight")
         _check("weight", weight, 5e-324, 1e100, "must be > 0")
-        deviation = np.sqrt(np.mean(weight) / np.asarray(weight, float))
-        sigmas = {"ez": deviation, "ex": deviation, "contact_time": deviation * contact_time}
-    columns.update({f"sigma_{what}": one for what, one in sigmas.items() if one is not None})
-    points, records, kept = _points(columns, speed, friction, partner, poisson_ratio, more)
+        deviation = np.sqrt(np.mean(weight) / weight)
+        given.update(sigma_ez=deviation, sigma_ex=deviation,
+                     sigma_contact_time=deviation * given["contact_time"])
+    points, records, kept = _points(given, partner, poisson_ratio, more)
     options, arrays = _options(model, terms, known, loss, wlf, poisson_ratio, members)
-    fitter = _Fitter(points, options, (records, kept, arrays))
-    fitter.run(progress)
-    result = _library.struct("fit_result", "fit")
-    call(_library.fit.restitute_fitter_result, fitter.handle, result)
+    result, fitted = _Fitter(points, options, (records, kept, arrays)).run(progress)
     measured = {what: points[what] for what in MEASURED}
     measured["normal_speed"] = records["normal_speed"]
-    return DropFit(result, model, name, fitter, measured)
+    return DropFit(result, model, name, options.confidence, measured, fitted)
 
 
-def _heights(drop, rebound, ratio, speed, ez):
-    """Speed and ez from heights of drop and rebound where these are given."""
-    if drop is None and speed is None:
+def _heights(given):
+    """Heights of drop and rebound, where these are given, as speed and ez."""
+    drop, rebound, ratio = (given.pop(name, None)
+                            for name in ("drop_height", "rebound_height", "rebound_ratio"))
+    if drop is None and "speed" not in given:
         raise TypeError("speed is missing: must be > 0 (or drop_height)")
     if drop is not None:
         _check("drop_height", drop, 5e-324, np.inf, "must be > 0")
-        if speed is not None and not np.all(np.isnan(speed) | np.isnan(drop)):
+        speed = given.get("speed", np.nan)
+        if not np.all(np.isnan(speed) | np.isnan(drop)):
             raise TypeError("drop_height and speed both give the speed")
-        fall = np.sqrt(2 * GRAVITY * np.asarray(drop, float))
-        speed = fall if speed is None else np.where(np.isnan(drop), speed, fall)
+        given["speed"] = np.where(np.isnan(drop), speed, np.sqrt(2 * GRAVITY * drop))
     if rebound is not None:
         if drop is None or np.any(np.isnan(drop) & ~np.isnan(rebound)):
             raise TypeError("rebound_height without drop_height")
         _check("rebound_height", rebound, 0, np.where(np.isnan(drop), np.inf, drop),
                "must be in [0, drop_height]")
-        ez = _root("rebound_height", np.divide(rebound, drop), ez)
+        given["ez"] = _root("rebound_height", rebound / drop, given["ez"])
     if ratio is not None:
         _check("rebound_ratio", ratio, 0, 1, "must be in [0, 1]")
-        ez = _root("rebound_ratio", np.asarray(ratio, float), ez)
-    return speed, ez
+        given["ez"] = _root("rebound_ratio", ratio, given["ez"])
 
 
 def _root(name, ratio, ez):
@@ -188,15 +203,14 @@ def _check(name, values, low, high, words):
         raise errors.DomainError(f"{where}{name} = {values.flat[bad[0]]:.15g}: {words}")
 
 
-def _points(columns, speed, friction, partner, poisson_ratio, scene):
+def _points(given, partner, poisson_ratio, scene):
     """restitute_fit_point records and the scenes they point at, and what must live as long."""
-    if friction is None:
-        friction = np.where(np.isnan(columns["ex"]), 0.0, np.nan)
-    partners = np.asarray(partner, object)
+    speed = given.pop("speed")
+    friction = given.pop("friction", np.where(np.isnan(given["ex"]), 0.0, np.nan))
+    partners = np.asarray(np.frompyfunc(_partner, 1, 1)(np.asarray(partner, object)), object)
     own = np.frompyfunc(lambda one: one.address if isinstance(one, Material) else 0, 1, 1)
     word = np.frompyfunc(lambda one: one if isinstance(one, str) else "rigid", 1, 1)
-    shape = np.broadcast_shapes(*(np.shape(one) for one in (speed, friction, partners)),
-                                *(np.shape(one) for one in columns.values()))
+    shape = broadcast({"speed": speed, "friction": friction, "partner": partners, **given})
     stand_in = Material.elastic(1.0, poisson_ratio)  # for the solid that is looked for
     impacts = Impacts(stand_in, speed=np.broadcast_to(speed, shape), partner=word(partners),
                       friction=np.where(np.isnan(friction), 0.0, friction), **scene)
@@ -207,36 +221,51 @@ def _points(columns, speed, friction, partner, poisson_ratio, scene):
     records["friction"] = np.broadcast_to(friction, shape).ravel()
     records["material"] = np.broadcast_to(own(partners), shape).ravel()
     points = _library.structs("fit_point", len(records), "fit")
-    for column, value in columns.items():
+    for column, value in given.items():
         points[column] = np.broadcast_to(value, shape).ravel()
     places = np.arange(len(records), dtype=np.uint64) * np.uint64(records.itemsize)
     points["scene"] = records.ctypes.data + places
     return points, records, partners
 
 
+def _partner(one):
+    """A word, or what is one's Material."""
+    word = isinstance(one, str) and one in ("rigid", "same")
+    return one if word else as_material("partner", one)
+
+
 def _options(model, terms, known, loss, wlf, poisson_ratio, members):
     """restitute_fit_options, and the arrays that must live as long."""
-    for name, value, words in (("model", model, MODELS), ("loss", loss, LOSSES)):
-        if value not in words:
-            raise errors.DomainError(f"{name} = {value!r}: must be one of {', '.join(words)}")
-    terms = np.atleast_1d(np.asarray(terms, float))
+    one_of("model", model, MODELS)
+    one_of("loss", loss, LOSSES)
+    terms = np.atleast_1d(numbers("terms", terms))
     if (model == "prony") != (terms.size > 0):
         raise TypeError("terms and the model prony belong together")
     names = [*MODELS[model], *(f"term{k + 1}" for k in range(terms.size))]
     values = np.full(len(names), np.nan)
     for name, value in (known or {}).items():
         if name not in names:
-            raise errors.DomainError(f"known: {name!r} is no constant of this model: must be one "
-                                     f"of {', '.join(names)}")
+            raise errors.DomainError(f"known: {name!r} is no constant of this model"
+                                     f"{errors.suggestion(name, names)}")
+        value = number(f"known: {name}", value)
+        if not (1e-30 <= value <= 1e30 or (value == 0 and model == "prony")):
+            raise errors.DomainError(f"known: {name} = {value:g}: must be in [1e-30, 1e30]")
         values[names.index(name)] = value
     arrays = [_library.pointer(terms), _library.pointer(values)]
     options = _library.struct(
         "fit_options", "fit", model=1 + list(MODELS).index(model), loss=LOSSES.index(loss),
         terms=terms.size, relaxation_time=arrays[0], known=arrays[1], poisson_ratio=poisson_ratio,
-        **members)
-    if wlf is not None:
-        options.wlf_c1, options.wlf_c2 = wlf
+        **_wlf(wlf), **members)
     return options, arrays
+
+
+def _wlf(constants):
+    """C1 and C2 as members of options."""
+    if constants is None:
+        return {}
+    if np.shape(constants) != (2,):
+        raise errors.DomainError(f"wlf = {errors.shown(constants)}: must be C1 and C2")
+    return dict(zip(("wlf_c1", "wlf_c2"), map(float, numbers("wlf", constants))))
 
 
 def fit_dma(frequency: Any, storage: Any, loss: Any, temperature: Any = None, *,
@@ -275,11 +304,11 @@ def fit_dma(frequency: Any, storage: Any, loss: Any, temperature: Any = None, *,
     <BLANKLINE>
       Prony series of 1 terms, relative residuals: rms ..., largest ...
     """
-    columns = [frequency, storage, loss] + ([] if temperature is None else [temperature])
-    arrays = [np.array(one, float).ravel() for one in np.broadcast_arrays(*columns)]
-    settings = _library.struct("dma_options", "fit", **options)
-    if wlf is not None:
-        settings.wlf_c1, settings.wlf_c2 = wlf
+    given = {"frequency": frequency, "storage": storage, "loss": loss, "temperature": temperature}
+    columns = {key: numbers(key, value) for key, value in given.items() if value is not None}
+    shape = broadcast(columns)
+    arrays = [np.array(np.broadcast_to(one, shape)).ravel() for one in columns.values()]
+    settings = _library.struct("dma_options", "fit", **_wlf(wlf), **options)
     result = _library.struct("dma_result", "fit")
     pointers = [*map(_library.pointer, arrays), *([ffi.NULL] if temperature is None else [])]
     _library.interruptible(_library.fit.restitute_dma_fit, arrays[0].size, *pointers, settings,

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from contextlib import contextmanager, nullcontext
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from restitute import _library, errors
 from restitute._library import ffi
+from restitute.columns import Columns
 from restitute.impact import Pairs, report, split
-from restitute.scenes import Columns, Impacts
+from restitute.scenes import Impacts
 from restitute.solving import Solved, options, solve_singly, solver
+from restitute.values import span, whole
 
 __all__ = ["Events", "Fields", "History", "history"]
 _MEMBERS = ("time", "indentation", "contact_radius", "stick_radius", "normal_force",
@@ -45,11 +48,13 @@ class Fields(NamedTuple):
     stick: np.ndarray  #: 1 sticks, 0 slips or not in contact
 
 
-class History(NamedTuple):
+@dataclass(frozen=True, eq=False, repr=False)
+class History:
     """Evenly spaced samples, first touch and the end of contact included; all of one shape (n,).
 
-    In SI units, or in T, d0, a_el, m v_z0^2/d0 (tangential force: times mu) and v_z0 (tangential
-    velocity: U' of docs/theory.md, 2).
+    `len(history)` is n, and `history[::10]` has every tenth sample. In SI units, or in T, d0, a_el,
+    m v_z0^2/d0 (tangential force: times mu) and v_z0 (tangential velocity: U' of docs/theory.md,
+    2).
     """
 
     time: np.ndarray
@@ -63,6 +68,20 @@ class History(NamedTuple):
     result: Pairs  #: the pair, with ledger
     events: Events | None = None
     fields: Fields | None = None
+
+    def __len__(self):
+        return len(self.time)
+
+    def __getitem__(self, index: Any) -> History:
+        return replace(self, **{name: getattr(self, name)[index] for name in _MEMBERS})
+
+    def __repr__(self):
+        paper = self.result.of_the_paper
+        time, depth, force = (" T", " d0", " F0") if paper else (" s", " m", " N")
+        return (f"History({np.size(self.time)} samples: time {span(self.time, time)}, indentation "
+                f"{span(self.indentation, depth, digits=3)}, normal force "
+                f"{span(self.normal_force, force, digits=3)}, ez {self.result.ez:.3g}, ex "
+                f"{self.result.ex:.3g})")
 
 
 def history(material: Any = None, *, samples: int = 500, method: str | None = None,
@@ -101,10 +120,9 @@ def history(material: Any = None, *, samples: int = 500, method: str | None = No
     if events and not method.startswith("cvode"):
         raise errors.DomainError(f"events: the method {method} logs none; must be cvode, "
                                  "cvode-bdf or cvode-adams")
-    if fields and method != "bem":
+    if whole("fields", fields, 0, 1000) and method != "bem":
         raise errors.DomainError(f"fields = {fields}: need the method bem, not {method}")
-    if not 2 <= samples <= 1e9:
-        raise errors.DomainError(f"samples = {samples}: must be in [2, 1e9]")
+    whole("samples", samples, 2, 10**9)
     asked = {"method": method, **settings}
     value = options(**asked)
     block = np.full((len(_MEMBERS), samples), np.nan)

@@ -9,8 +9,10 @@ import numpy as np
 
 from restitute import _library, errors
 from restitute._library import core
-from restitute.scenes import Columns, Impacts
+from restitute.columns import Columns
+from restitute.scenes import Impacts
 from restitute.solving import OPTIONS, Solved, options, solve_impacts
+from restitute.values import one_of, span
 
 __all__ = ["LIMITS", "Pairs", "pair", "solve"]
 
@@ -33,6 +35,8 @@ LIMITS = (
 
 class Pairs(Columns):
     """What came out of `pair`: arrays of the shape of the input, SI or in units of the paper.
+
+    Can be pickled. `pairs[1]`, `pairs[:, 0]` and `len` are as of these arrays.
 
     Attributes
     ----------
@@ -59,11 +63,34 @@ class Pairs(Columns):
 
     def __init__(self, impacts: Impacts | None, shape: tuple, solved: Solved, asked: dict):
         super().__init__(solved.results.reshape(shape))
-        self.impacts, self._asked, self._messages = impacts, asked, dict(solved.messages)
+        self.impacts, self._asked, self._solved = impacts, asked, solved
         self.status = solved.status.reshape(shape)[()]
         ledgers = solved.ledgers
         self.ledger = None if ledgers is None else Columns(ledgers.reshape(shape))
         self.method = asked["method"]
+
+    def __getitem__(self, index: Any) -> Pairs:
+        place = np.arange(self._records.size).reshape(self.shape)[index]
+        some, (results, status, ledgers, messages) = np.ravel(place), self._solved
+        messages = {i: messages[k] for i, k in enumerate(some.tolist()) if k in messages}
+        solved = Solved(results[some], status[some], ledgers if ledgers is None else ledgers[some],
+                        messages)
+        impacts = None if self.impacts is None else self.impacts[some]
+        return Pairs(impacts, np.shape(place), solved, self._asked)
+
+    def __repr__(self):
+        count = " x ".join(map(str, self.shape)) or "1"
+        time = span(self.contact_time, " T" if self.of_the_paper else " s", digits=3)
+        parts = [f"ez {span(self.ez, digits=3)}", f"ex {span(self.ex, digits=3)}",
+                 f"contact time {time}"]
+        for hit, word in ((self.flags != 0, "flagged"), (self.status < 0, "failed")):
+            parts += [f"{np.sum(hit)} {word}"] if np.any(hit) else []
+        return f"Pairs({count} impact{'s' * (count != '1')}: {', '.join(parts)})"
+
+    @property
+    def of_the_paper(self) -> bool:
+        """Whether numbers are in units of the paper, not SI."""
+        return self.impacts is not None and self.impacts.kind == "impact"
 
     @property
     def settings(self) -> Any:
@@ -78,10 +105,11 @@ class Pairs(Columns):
         """
         flat = int(np.ravel_multi_index(index, self.shape)) if index else 0
         strained = np.ravel(self.status)[flat] != 0 or np.ravel(self.flags)[flat] != 0
-        if strained and flat not in self._messages and self.impacts is not None:
+        messages = self._solved.messages
+        if strained and flat not in messages and self.impacts is not None:
             again = solve_impacts(self.impacts[flat:flat + 1], {**self._asked, "threads": 1})
-            self._messages[flat] = again.messages.get(0, "")
-        return self._messages.get(flat, "")
+            messages[flat] = again.messages.get(0, "")
+        return messages.get(flat, "")
 
     def words(self) -> np.ndarray:
         """A line for each impact, an array of str of the shape: empty, or a remark and the names
@@ -177,8 +205,7 @@ def solve(impacts: Impacts, *, method: str = "euler", energies: bool = False,
     >>> solve(Impacts(psi=[2], delta1=1, gamma=1)).ez.round(2)
     array([0.78])
     """
-    if on_error not in ("raise", "nan"):
-        raise errors.DomainError(f"on_error = {on_error!r}: must be raise or nan")
+    one_of("on_error", on_error, ("raise", "nan"))
     asked, stop = {"method": method, **settings}, on_error == "raise"
     options(**asked)
     if impacts.refused and stop:

@@ -2,7 +2,6 @@
 """Linear-viscoelastic solids: of constants, from files, by name, of two unlike bodies."""
 from __future__ import annotations
 
-import difflib
 import math
 import os
 from functools import partial
@@ -12,8 +11,9 @@ import numpy as np
 
 from restitute import _library, errors
 from restitute._library import call, ffi
+from restitute.values import number, numbers, refuse
 
-__all__ = ["Material", "Series", "material", "material_names", "shear_modulus", "solids"]
+__all__ = ["Material", "Series", "as_material", "material", "material_names"]
 _FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "materials")
 
 
@@ -68,26 +68,29 @@ class Material:
                  window: tuple[float, float] | None = None, temperature: float = math.nan,
                  wlf: tuple[float, float, float] | None = None):
         self._handle = ffi.gc(handle, _library.core.restitute_material_destroy)
-        self.name, self.source, self.model, self.density = name, source, model, density
-        self.parts, self.temperature, self.wlf = parts, temperature, wlf
+        self.name, self.source, self.model, self.parts = name, source, model, parts
+        self.density, self.temperature = number("density", density), temperature
+        self.wlf = wlf
         if window is not None:
             call(_library.core.restitute_material_set_window, handle, *map(float, window))
         self.address = int(ffi.cast("uintptr_t", handle))
 
     @classmethod
-    def _made(cls, kind, /, *constants, **about) -> Material:
+    def _made(cls, kind, about, *arguments, **constants) -> Material:
         handle = ffi.new("restitute_material **")
-        call(getattr(_library.core, f"restitute_material_{kind}"), *constants, handle)
+        call(getattr(_library.core, f"restitute_material_{kind}"), *arguments,
+             *(number(name, value) for name, value in constants.items()), handle)
         return cls(handle[0], **{"model": kind, **about})
 
     @classmethod
     def elastic(cls, modulus: float, poisson_ratio: float = 0.5, **about: Any) -> Material:
         """Elastic solid of shear modulus `modulus` (Pa).
 
+        >>> from restitute import shear_modulus
         >>> Material.elastic(shear_modulus(youngs=210e9, poisson_ratio=0.3), 0.3).series.modulus
         array([], dtype=float64)
         """
-        return cls._made("elastic", modulus, poisson_ratio, **about)
+        return cls._made("elastic", about, modulus=modulus, poisson_ratio=poisson_ratio)
 
     @classmethod
     def standard_solid(cls, modulus1: float, modulus2: float, viscosity: float,
@@ -97,7 +100,8 @@ class Material:
         >>> Material.standard_solid(1e6, 2e6, 50.0).series.relaxation_time
         array([2.5e-05])
         """
-        return cls._made("standard_solid", modulus1, modulus2, viscosity, poisson_ratio, **about)
+        return cls._made("standard_solid", about, modulus1=modulus1, modulus2=modulus2,
+                         viscosity=viscosity, poisson_ratio=poisson_ratio)
 
     @classmethod
     def kelvin_voigt(cls, modulus1: float, viscosity: float, poisson_ratio: float = 0.5,
@@ -107,7 +111,8 @@ class Material:
         >>> Material.kelvin_voigt(1e6, 50.0).series.parallel_viscosity
         50.0
         """
-        return cls._made("kelvin_voigt", modulus1, viscosity, poisson_ratio, **about)
+        return cls._made("kelvin_voigt", about, modulus1=modulus1, viscosity=viscosity,
+                         poisson_ratio=poisson_ratio)
 
     @classmethod
     def maxwell(cls, modulus: float, viscosity: float, poisson_ratio: float = 0.5,
@@ -117,7 +122,8 @@ class Material:
         >>> Material.maxwell(1e6, 50.0).series.equilibrium_modulus
         0.0
         """
-        return cls._made("maxwell", modulus, viscosity, poisson_ratio, **about)
+        return cls._made("maxwell", about, modulus=modulus, viscosity=viscosity,
+                         poisson_ratio=poisson_ratio)
 
     @classmethod
     def prony(cls, relaxation_time: Any, modulus: Any, equilibrium_modulus: float = 0.0,
@@ -137,13 +143,14 @@ class Material:
         >>> Material.prony([1e-4, 1e-2], [5e6, 1e6], 1e6).relaxation_modulus([1e-3]).round(-4)
         array([1910000.])
         """
-        pair = np.broadcast_arrays(np.atleast_1d(relaxation_time), np.atleast_1d(modulus))
-        tau, g = (np.array(values, float) for values in pair)
-        if tau.ndim != 1:
-            raise errors.DomainError(f"relaxation_time, modulus: have the shape {tau.shape}, must "
-                                     "have one dimension")
-        return cls._made("prony", equilibrium_modulus, parallel_viscosity, len(tau),
-                         _library.pointer(tau), _library.pointer(g), poisson_ratio, **about)
+        tau, g = (np.array(numbers(name, values), ndmin=1) for name, values in (
+            ("relaxation_time", relaxation_time), ("modulus", modulus)))
+        if tau.shape != g.shape or tau.ndim != 1:
+            raise errors.DomainError(f"relaxation_time, modulus: have the shapes {tau.shape} and "
+                                     f"{g.shape}, must have one dimension and the same length")
+        return cls._made("prony", about, number("equilibrium_modulus", equilibrium_modulus),
+                         number("parallel_viscosity", parallel_viscosity), len(tau),
+                         _library.pointer(tau), _library.pointer(g), poisson_ratio=poisson_ratio)
 
     @classmethod
     def effective(cls, material1: Material, material2: Material, **about: Any) -> Material:
@@ -153,10 +160,10 @@ class Material:
         >>> round(pair.dundurs, 3)
         -0.13
         """
-        name = " on ".join(m.name or m.model for m in (material1, material2))
-        about = {"name": name, "density": material1.density, **about}
-        return cls._made("effective", material1._handle, material2._handle,
-                         parts=(material1, material2), **about)
+        parts = as_material("material1", material1), as_material("material2", material2)
+        about = {"name": " on ".join(m.name or m.model for m in parts), "parts": parts,
+                 "density": parts[0].density, **about}
+        return cls._made("effective", about, *(part._handle for part in parts))
 
     @classmethod
     def read(cls, path: str | os.PathLike) -> Material:
@@ -207,33 +214,33 @@ class Material:
         return Series(tau, g, rest[0], rest[1])
 
     def relaxation_modulus(self, time: Any) -> Any:
-        """G(t) in Pa at times t > 0 (s) after a unit shear step, in their shape; nan elsewhere."""
-        s, t = self.series, np.asarray(time, float)
-        t = np.where(t > 0, t, np.nan)
+        """G(t) in Pa at times t > 0 (s) after a unit shear step, in their shape."""
+        s, t = self.series, numbers("time", time)
+        refuse("time", t, ~(t > 0), "must be > 0")
         with np.errstate(under="ignore"):
             decay = np.exp(-t[..., None] / s.relaxation_time)
-        return (s.equilibrium_modulus + decay @ s.modulus + 0 * t)[()]
+        return (s.equilibrium_modulus + decay @ s.modulus)[()]
 
     def _sine_cosine(self, frequency: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """omega, and sine and cosine of arctan(omega tau): no square overflows."""
-        omega = np.asarray(frequency, float)
-        omega = np.where(omega >= 0, omega, np.nan)
+        omega = numbers("frequency", frequency)
+        refuse("frequency", omega, ~((omega >= 0) & (omega < np.inf)), "must be finite and >= 0")
         with np.errstate(over="ignore"):
             x = np.minimum(omega[..., None] * self.series.relaxation_time, 1e150)
         cosine = 1 / np.hypot(1, x)
         return omega, x * cosine, cosine
 
     def storage_modulus(self, frequency: Any) -> Any:
-        """G'(omega) in Pa at angular frequencies >= 0 (rad/s), in their shape; nan elsewhere.
+        """G'(omega) in Pa at angular frequencies >= 0 (rad/s), in their shape.
 
         >>> Material.maxwell(1e6, 1e3).storage_modulus([1e3]).round(3)
         array([500000.])
         """
-        omega, sine, _ = self._sine_cosine(frequency)
-        return (self.series.equilibrium_modulus + sine**2 @ self.series.modulus + 0 * omega)[()]
+        sine = self._sine_cosine(frequency)[1]
+        return (self.series.equilibrium_modulus + sine**2 @ self.series.modulus)[()]
 
     def loss_modulus(self, frequency: Any) -> Any:
-        """G''(omega) in Pa at angular frequencies >= 0 (rad/s), in their shape; nan elsewhere.
+        """G''(omega) in Pa at angular frequencies >= 0 (rad/s), in their shape.
 
         >>> Material.kelvin_voigt(1e6, 50.0).loss_modulus([0, 1e3])
         array([    0., 50000.])
@@ -249,7 +256,7 @@ class Material:
         >>> Material.maxwell(1e6, 50.0).shifted(10).series.relaxation_time
         array([0.0005])
         """
-        if time_shift == 1:
+        if number("time_shift", time_shift) == 1:
             return self
         if self.parts:
             parts = (part.shifted(time_shift) for part in self.parts)
@@ -269,6 +276,7 @@ class Material:
         DomainError
             There are no constants of the shift, or not for this temperature.
         """
+        temperature = number("temperature", temperature)
         if self.wlf is None:
             raise errors.DomainError(
                 f"temperature = {temperature:g}: no shift of times with temperature is known for "
@@ -278,9 +286,7 @@ class Material:
         info.wlf_c1, info.wlf_c2, info.wlf_reference = self.wlf
         call(_library.files.restitute_material_at_temperature, self._handle, info, temperature,
              made)
-        about = self._about()
-        about["temperature"] = float(temperature)
-        return Material(made[0], **about)
+        return Material(made[0], **{**self._about(), "temperature": temperature})
 
     def _about(self) -> dict[str, Any]:
         names = ("name", "source", "model", "density", "temperature", "wlf")
@@ -316,6 +322,16 @@ def _folder() -> str:
     return os.environ.get("RESTITUTE_MATERIALS") or _FOLDER
 
 
+def as_material(name: str, value: Any) -> Material:
+    """The material that is given for the keyword `name`: itself, by name or as a file."""
+    if isinstance(value, Material):
+        return value
+    if isinstance(value, (str, os.PathLike)):
+        return material(value)
+    raise errors.DomainError(f"{name} = {errors.shown(value)}: must be a Material, its name or a "
+                             "file")
+
+
 def material_names() -> list[str]:
     """Names that `material` knows: files of the package, or of the folder that the environment
     variable RESTITUTE_MATERIALS names.
@@ -349,85 +365,14 @@ def material(name: str | os.PathLike, temperature: float | None = None) -> Mater
     >>> material("polyisobutylene", temperature=40).density
     920.0
     """
+    if not isinstance(name, (str, os.PathLike)):
+        raise errors.DomainError(f"material = {errors.shown(name)}: must be a name or a file")
     word, names = os.fspath(name), material_names()
     if word.endswith((".json", ".csv")):
         found = Material.read(word)
     elif word in names:
         found = Material.read(os.path.join(_folder(), f"{word}.json"))
     else:
-        near = difflib.get_close_matches(word, names, 1)
-        hint = f"did you mean {near[0]}? " if near else ""
-        raise errors.DomainError(f"material = {word!r}: {hint}must be a .json or .csv file or one "
-                                 f"of {', '.join(names)}")
+        raise errors.DomainError(f"material = {word!r}: is no .json or .csv file and no name"
+                                 f"{errors.suggestion(word, names)}")
     return found if temperature is None else found.at_temperature(temperature)
-
-
-def shear_modulus(*, youngs: Any = None, shore_a: Any = None, poisson_ratio: Any = 0.5) -> Any:
-    """The shear modulus (Pa) of Young's modulus or of a hardness: G = E/(2 (1 + nu)).
-
-    Parameters
-    ----------
-    youngs : array_like
-        E, Pa.
-    shore_a : array_like, in [10, 95]
-        Instead of E: Shore A hardness S, with E = 0.0981 MPa (56 + 7.62336 S)/(0.137505 (254 -
-        2.54 S)), A. N. Gent, Rubber Chemistry and Technology 31 (1958) 896. A rough estimate of
-        the slow (equilibrium) modulus.
-    poisson_ratio : array_like
-
-    Examples
-    --------
-    >>> shear_modulus(youngs=[2.6e9], poisson_ratio=0.3)
-    array([1.e+09])
-    >>> shear_modulus(shore_a=[60, 70]).round(-4)
-    array([1200000., 1840000.])
-    """
-    if (youngs is None) == (shore_a is None):
-        raise TypeError("shear_modulus needs youngs or shore_a, one of them")
-    if shore_a is not None:
-        s = np.asarray(shore_a, float)
-        if not np.all((s >= 10) & (s <= 95)):
-            raise errors.DomainError(f"shore_a = {s}: must be in [10, 95]")
-        youngs = 0.0981e6 * (56 + 7.62336 * s) / (0.137505 * (254 - 2.54 * s))
-    return (np.asarray(youngs, float) / (2 * (1 + np.asarray(poisson_ratio, float))))[()]
-
-
-def _solid(modulus1: float, modulus2: float, viscosity: float, poisson_ratio: float) -> Material:
-    if viscosity == 0:
-        return Material.elastic(modulus1, poisson_ratio)
-    if modulus1 == 0:
-        return Material.maxwell(modulus2, viscosity, poisson_ratio)
-    if math.isinf(modulus2):
-        return Material.kelvin_voigt(modulus1, viscosity, poisson_ratio)
-    return Material.standard_solid(modulus1, modulus2, viscosity, poisson_ratio)
-
-
-def solids(modulus1: Any, modulus2: Any = math.inf, viscosity: Any = 0.0,
-           poisson_ratio: Any = 0.5) -> np.ndarray:
-    """Solids of arrays of constants: Materials in their broadcast shape, one a combination.
-
-    Without viscosity elastic; with modulus1 = 0 Maxwell bodies; with modulus2 infinite
-    Kelvin-Voigt solids.
-
-    Raises
-    ------
-    DomainError
-        With `index`, in flat order, of the first combination out of range.
-
-    Examples
-    --------
-    >>> solids([1e6, 1e6, 2e6]).shape
-    (3,)
-    """
-    given = (np.asarray(c, float) for c in (modulus1, modulus2, viscosity, poisson_ratio))
-    columns = np.broadcast_arrays(*given)
-    rows = np.stack([c.ravel() for c in columns], axis=1)
-    _, first, place = np.unique(rows, axis=0, return_index=True, return_inverse=True)
-    made = np.empty(len(first), object)
-    for k in np.argsort(first):
-        try:
-            made[k] = _solid(*rows[first[k]])
-        except errors.DomainError as error:
-            error.index = int(first[k])
-            raise
-    return made[place.ravel()].reshape(columns[0].shape)

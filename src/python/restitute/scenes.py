@@ -2,7 +2,6 @@
 """From keywords to impacts that the library solves: broadcasting, masses, materials."""
 from __future__ import annotations
 
-import difflib
 import os
 from functools import partial
 from typing import Any
@@ -10,10 +9,11 @@ from typing import Any
 import numpy as np
 
 from restitute import _library, errors
-from restitute.materials import Material
-from restitute.materials import material as material_of
+from restitute.columns import Columns
+from restitute.materials import Material, as_material
+from restitute.values import broadcast, numbers, span, unmasked
 
-__all__ = ["DIMENSIONLESS", "SCENE", "Columns", "Impacts", "describe"]
+__all__ = ["DIMENSIONLESS", "SCENE", "Impacts", "describe"]
 
 #: Keywords of an impact in the numbers of the paper, and in SI units.
 DIMENSIONLESS = ("chi", "psi", "delta1", "gamma", "delta2")
@@ -27,32 +27,6 @@ _RANGES = {"speed": (0, _MOST, "must be finite and > 0"),
            "angle": (-5e-324, np.nextafter(90, 0), "must be in [0, 90)"),
            "density": (0, _MOST, "must be finite and > 0"),
            "density2": (0, np.inf, "must be > 0 (inf: held fast)")}
-
-
-class Columns:
-    """Records of a struct of the library: each member is an array of the common shape."""
-
-    _hidden: tuple = ("struct_size",)
-
-    def __init__(self, records: np.ndarray):
-        self._records = records
-
-    @property
-    def shape(self) -> tuple:
-        """Shape of every member."""
-        return self._records.shape
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_") or name in self._hidden or name not in self._records.dtype.names:
-            raise AttributeError(f"'{name}' is not one of {', '.join(dir(self))}")
-        return self._records[name][()]
-
-    def __dir__(self):
-        members = [name for name in self._records.dtype.names if name not in self._hidden]
-        return members + [name for name in vars(self) if not name.startswith("_")]
-
-    def __repr__(self):
-        return f"<restitute.{type(self).__name__} of shape {self.shape}>"
 
 
 class Impacts:
@@ -107,7 +81,7 @@ class Impacts:
             self._checks.append((bad, lambda at: f"{name} = {at(value):.15g}: {words}"))
 
     def _impact_columns(self, values):
-        columns = {name: _numbers(name, value) for name, value in values.items()}
+        columns = {name: numbers(name, value) for name, value in values.items()}
         if "psi" not in columns:
             raise TypeError("psi is missing: must be in [0, 1e12] (inf: no friction)")
         if "delta2" in columns:
@@ -132,7 +106,9 @@ class Impacts:
                 raise TypeError(f"{name} is missing")
         partner, shift = values.pop("partner", "rigid"), values.pop("time_shift", 1.0)
         self.solids, place, deformable = combine(material, partner, shift)
-        number = {name: _numbers(name, value) for name, value in values.items()}
+        number = {name: numbers(name, value, "biuf" if name == "rotation_blocked" else "iuf")
+                  for name, value in values.items()}
+        broadcast({"material": place, **number})
         for name, allowed in _RANGES.items():
             if name in number:
                 self._in_range(name, number[name], *allowed)
@@ -169,6 +145,8 @@ class Impacts:
         if value is None:
             known = [(m.parts or (m, m))[body == "2"].density for m in self.solids]
             sure = (deformable == 2) | np.array([bool(m.parts) for m in self.solids])[place]
+            if not np.any(sure):
+                raise TypeError(f"{density} or {mass} is missing: must be > 0")
             value = np.where(sure, np.array(known)[place], np.nan)
             none = " (the material has none)"
             self._checks.append((np.isnan(value) & np.isfinite(radius), lambda at: (
@@ -179,7 +157,7 @@ class Impacts:
     def __len__(self):
         return len(self.records)
 
-    def __getitem__(self, part: slice) -> Impacts:
+    def __getitem__(self, part: slice | np.ndarray) -> Impacts:
         some = object.__new__(Impacts)
         some.kind, some.records, some.refused = self.kind, self.records[part].copy(), {}
         some.shape = some.records.shape
@@ -239,9 +217,8 @@ def _kind(material, values):
     known = SCENE + DIMENSIONLESS
     for name in values:
         if name not in known:
-            near = difflib.get_close_matches(name, known, 1, 0.7)
-            hint = f"; did you mean {near[0]}?" if near else f": {', '.join(known)}"
-            raise TypeError(f"'{name}' is no keyword of an impact{hint}")
+            raise TypeError(f"'{name}' is no keyword of an impact"
+                            f"{errors.suggestion(name, known)}")
     pure = [name for name in DIMENSIONLESS if name in values]
     physical = [name for name in SCENE if name in values] + ["material"] * (material is not None)
     if pure and physical:
@@ -253,24 +230,8 @@ def _kind(material, values):
     return "impact" if pure else "scene"
 
 
-def broadcast(columns: dict) -> tuple:
-    """The common shape of columns."""
-    try:
-        return np.broadcast_shapes(*(np.shape(column) for column in columns.values()))
-    except ValueError:
-        shapes = (f"{name} {np.shape(c)}" for name, c in columns.items() if np.ndim(c))
-        raise errors.DomainError(f"shapes do not broadcast: {', '.join(shapes)}") from None
-
-
 def _at(shape, index, values):
     return np.broadcast_to(values, shape).flat[index]
-
-
-def _numbers(name, value):
-    try:
-        return np.asarray(value, float)
-    except (TypeError, ValueError):
-        raise errors.DomainError(f"{name} = {value!r}: must be a number or an array") from None
 
 
 def _speeds(number):
@@ -295,13 +256,11 @@ def combine(material: Any, partner: Any, time_shift: Any) -> tuple[list[Material
     opened: dict[Any, Material] = {}
 
     def opening(name, value):
-        if not isinstance(value, (str, os.PathLike, Material)):
-            raise TypeError(f"{name} = {value!r}: must be a Material, its name or a file")
-        if isinstance(value, Material):
-            return value
-        if value not in opened:
-            opened[value] = material_of(value)
-        return opened[value]
+        if isinstance(value, (str, os.PathLike)):
+            if value not in opened:
+                opened[value] = as_material(name, value)
+            return opened[value]
+        return as_material(name, value)
 
     def solid(one, other, shift):
         word = isinstance(other, str) and other in ("rigid", "same")
@@ -317,14 +276,17 @@ def combine(material: Any, partner: Any, time_shift: Any) -> tuple[list[Material
             solids.append(found if word else Material.effective(found, opening("partner", other)))
         return places[key], 2 if word and other == "same" else 1
 
-    found = np.frompyfunc(solid, 3, 2)(_objects(material), _objects(partner),
-                                       _numbers("time_shift", time_shift).astype(object))
+    columns = {"material": _objects("material", material), "partner": _objects("partner", partner),
+               "time_shift": numbers("time_shift", time_shift).astype(object)}
+    broadcast(columns)
+    found = np.frompyfunc(solid, 3, 2)(*columns.values())
     place, deformable = (np.asarray(part).astype(np.int64) for part in found)
     return solids, place, deformable
 
 
-def _objects(value) -> np.ndarray:
+def _objects(name, value) -> np.ndarray:
     """An array of Materials or words; a word is no sequence."""
+    unmasked(name, value)
     if not isinstance(value, (str, os.PathLike)):
         return np.asarray(value, object)
     array = np.empty((), object)
@@ -332,16 +294,10 @@ def _objects(value) -> np.ndarray:
     return array
 
 
-def _span(values: Any, unit: str, scale: float = 1.0) -> str:
-    """"5 mm", or "1 to 5 mm"."""
-    ends = dict.fromkeys(f"{float(end) * scale:.4g}" for end in (np.min(values), np.max(values)))
-    return f"{' to '.join(ends)}{unit}"
-
-
 def _length(values: Any) -> str:
     most = float(np.max(values))
     unit, scale = (" m", 1.0) if most >= 1 else (" mm", 1e3) if most >= 1e-4 else (" um", 1e6)
-    return _span(values, unit, scale)
+    return span(values, unit, scale)
 
 
 def _names(solids: list[Material]) -> str:
@@ -355,7 +311,7 @@ def describe(impacts: Any = None, **keywords: Any) -> str:
     Examples
     --------
     >>> rubber = Material.elastic(1e6, name="rubber")
-    >>> describe(material_of("steel"), partner=rubber, radius=0.005, speed=1, friction=0.3)
+    >>> describe("steel", partner=rubber, radius=0.005, speed=1, friction=0.3)
     'sphere of Structural steel, R = 5 mm, on a wall of rubber: 1 m/s, 0 degrees, friction 0.3'
     >>> describe(rubber, radius=[0.001, 0.005], density=1100, speed=1, angle=30)
     'sphere, R = 1 to 5 mm, on a wall, one of them of rubber, the other rigid: 1 m/s, 30 degrees,
@@ -365,7 +321,7 @@ def describe(impacts: Any = None, **keywords: Any) -> str:
         impacts = Impacts(impacts, **keywords)
     r = impacts.records
     if impacts.kind == "impact":
-        return ", ".join(f"{name} = {_span(r[name], '')}" for name in DIMENSIONLESS[:4])
+        return ", ".join(f"{name} = {span(r[name], '')}" for name in DIMENSIONLESS[:4])
     used = [impacts.solids[i] for i in np.unique(r["material"]).astype(int)]
     wall = np.isinf(r["radius2"])
     other = "a wall" if wall.all() else "a sphere or a wall" if wall.any() else "a sphere"
@@ -381,6 +337,6 @@ def describe(impacts: Any = None, **keywords: Any) -> str:
     speed = np.hypot(r["normal_speed"], r["tangential_speed"])
     angle = np.degrees(np.arctan2(np.abs(r["tangential_speed"]), r["normal_speed"]))
     return (f"sphere{first}, R = {_length(r['radius1'])}, on {other}{second}{rigid}: "
-            f"{_span(speed, ' m/s')}, {_span(angle, ' degrees')}, "
-            f"friction {_span(r['friction'], '')}"
+            f"{span(speed, ' m/s')}, {span(angle, ' degrees')}, "
+            f"friction {span(r['friction'], '')}"
             f"{', rotation blocked' if (r['rotation_blocked'] != 0).all() else ''}")

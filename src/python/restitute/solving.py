@@ -2,8 +2,8 @@
 """Options, methods, and solving impacts: in pieces here, in chunks elsewhere."""
 from __future__ import annotations
 
-import difflib
 import os
+import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -15,6 +15,7 @@ from restitute import _library, errors
 from restitute._library import call, core, ffi, pointer
 from restitute.executor import map_chunks
 from restitute.scenes import Impacts
+from restitute.values import whole
 
 __all__ = ["METHODS", "OPTIONS", "Solved", "methods", "options", "solve_impacts", "solver"]
 
@@ -39,10 +40,9 @@ def methods() -> list[str]:
 
 
 def _method(name):
-    if name not in METHODS:
-        near = difflib.get_close_matches(str(name), METHODS, 1)
-        raise errors.DomainError(f"method = {name!r}: {f'did you mean {near[0]}? ' if near else ''}"
-                                 f"must be one of {', '.join(methods())}")
+    if not isinstance(name, str) or name not in METHODS:
+        raise errors.DomainError(f"method = {errors.shown(name)}"
+                                 f"{errors.suggestion(name, methods())}")
     library = getattr(_library, METHODS[name])
     return getattr(library, f"restitute_method_{name.replace('-', '_')}")()
 
@@ -55,16 +55,11 @@ def options(method: str = "euler", **members: Any) -> Any:
     DomainError, MissingComponent, TypeError
         The text names the value and its range.
     """
-    value = _library.struct("options")
-    value.method = _method(method)
-    for name, member in members.items():
+    for name in members:
         if name not in OPTIONS:
-            raise TypeError(f"'{name}' is no option: {', '.join(OPTIONS)}")
-        try:
-            if member is not None:
-                setattr(value, name, member)
-        except (TypeError, OverflowError):
-            raise errors.DomainError(f"{name} = {member!r}: is no number of its kind") from None
+            raise TypeError(f"'{name}' is no option{errors.suggestion(name, OPTIONS)}")
+    given = {name: member for name, member in members.items() if member is not None}
+    value = _library.struct("options", method=_method(method), **given)
     call(core.restitute_solve_many, 0, ffi.NULL, value, ffi.NULL, ffi.NULL)
     return value
 
@@ -115,9 +110,9 @@ def solve_impacts(impacts: Impacts, settings: dict, *, energies: bool = False, s
         Called with the number of impacts done and of all.
     """
     total = len(impacts)
+    size = min(-(-total // 256), 4096) if chunk is None else whole("chunk", chunk, 1, sys.maxsize)
     if executor is None or total == 0:
         return _solve_here(impacts, settings, energies, stop, progress)
-    size = chunk or min(-(-total // 256), 4096)
     tasks = [(impacts[i:i + size], {**settings, "threads": 1}, energies, stop, None)
              for i in range(0, total, size)]
 
@@ -128,9 +123,9 @@ def solve_impacts(impacts: Impacts, settings: dict, *, energies: bool = False, s
     solved, begin = Solved.empty(total, energies), 0
     for part in map_chunks(_solve_task, tasks, executor, retries=retries, progress=count):
         end = begin + len(part.status)
-        for whole, piece in zip(solved[:3], part[:3]):
-            if whole is not None:
-                whole[begin:end] = piece
+        for column, piece in zip(solved[:3], part[:3]):
+            if column is not None:
+                column[begin:end] = piece
         solved.messages.update({begin + i: text for i, text in part.messages.items()})
         begin = end
         if stop and np.any(part.status < 0):

@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from types import SimpleNamespace
 from typing import Any, Callable
 
@@ -18,6 +19,7 @@ from restitute.executor import map_chunks
 from restitute.impact import LIMITS
 from restitute.materials import Material
 from restitute.scenes import Impacts
+from restitute.values import broadcast, fit_shape, numbers, span, whole
 
 __all__ = ["Table", "TableContact", "TablePairs", "build_tables"]
 
@@ -37,10 +39,16 @@ class TableContact:
         Effective ones, m and kg.
     """
 
-    def __init__(self, struct: Any):
-        self.struct = struct
-        self.speed_factor, self.psi_factor = struct.speed_factor, struct.psi_factor
-        self.radius, self.mass = struct.radius, struct.mass
+    def __init__(self, **members: Any):
+        self.struct = _library.struct("table_contact", "table", **members)
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or name == "struct":
+            raise AttributeError(name)
+        return getattr(self.struct, name)
+
+    def __reduce__(self):
+        return partial(TableContact, **_library.members(self.struct)), ()
 
 
 class TablePairs:
@@ -52,20 +60,26 @@ class TablePairs:
         Of the broadcast shape of the speeds.
     """
 
-    def __init__(self, ez: Any, ex: Any, flags: Callable[[], Any]):
+    def __init__(self, ez: Any, ex: Any, flags: Any = None):
         self.ez, self.ex, self._flags = ez, ex, flags
 
     @property
     def flags(self) -> Any:
         """Which limits of the model are passed (`Table.flags`); None for a contact that is not
         the table's own."""
-        return self._flags()
+        if callable(self._flags):
+            self._flags = self._flags()
+        return self._flags
 
     def __iter__(self):
         return iter((self.ez, self.ex))
 
+    def __reduce__(self):
+        return TablePairs, (self.ez, self.ex, self.flags)
+
     def __repr__(self):
-        return f"<restitute.TablePairs ez={self.ez}, ex={self.ex}>"
+        count = " x ".join(map(str, np.shape(self.ez))) or "1"
+        return f"TablePairs({count}: ez {span(self.ez, digits=3)}, ex {span(self.ex, digits=3)})"
 
 
 class Table:
@@ -136,13 +150,12 @@ class Table:
         ModelLimitWarning
             Contact times are outside the window in which the material was measured.
         """
-        options = _library.struct("table_options", "table", threads=threads, tolerance=tolerance)
-        options.speed = [float(speed) for speed in np.broadcast_to(speeds, 2)]
-        for name, value in (("max_impacts", max_impacts), ("time_limit", time_limit),
-                            ("speed_limit", speed_limit), ("radius_limit", radius_limit),
-                            ("displacement_limit", displacement_limit)):
-            if value is not None:
-                setattr(options, name, value)
+        given = {"threads": threads, "tolerance": tolerance, "max_impacts": max_impacts,
+                 "time_limit": time_limit, "speed_limit": speed_limit,
+                 "radius_limit": radius_limit, "displacement_limit": displacement_limit}
+        options = _library.struct("table_options", "table", **{
+            name: value for name, value in given.items() if value is not None})
+        options.speed = fit_shape("speeds", numbers("speeds", speeds), (2,)).tolist()
         handle = ffi.new("restitute_table **")
         scene, kept = _scene(material, contact)
         function = _library.table.restitute_table_build
@@ -242,10 +255,10 @@ class Table:
         DomainError
             The table does not serve it.
         """
-        struct = _library.struct("table_contact", "table", touch_gap=touch_gap)
-        scene, _kept = _scene(material or self.material, contact)
-        call(_library.table.restitute_table_contact_set, self._handle, scene, struct)
-        return TableContact(struct)
+        made = TableContact(touch_gap=touch_gap)
+        scene, _kept = _scene(self.material if material is None else material, contact)
+        call(_library.table.restitute_table_contact_set, self._handle, scene, made.struct)
+        return made
 
     def pair(self, normal_speed: Any, sliding_speed: Any = 0.0,
              contact: TableContact | None = None, *, check: bool = True) -> TablePairs:
@@ -279,7 +292,7 @@ class Table:
         if check:
             self._warn(normal, sliding, contact)
         return TablePairs(ez.reshape(shape)[()], ex.reshape(shape)[()],
-                          lambda: None if contact else self.flags(normal_speed, sliding_speed))
+                          None if contact else partial(self.flags, normal_speed, sliding_speed))
 
     def collide(self, first: Body, second: Body,
                 contact: TableContact | None = None) -> tuple[Body, Body, TablePairs]:
@@ -319,8 +332,7 @@ class Table:
             _library.warn(f"{beyond} of {count} impacts are outside the table's range, whose ends "
                           "are taken", errors.ModelLimitWarning)
         first, second = after((first, second), bodies, shape, [])
-        return first, second, TablePairs(ez.reshape(shape)[()], ex.reshape(shape)[()],
-                                         lambda: None)
+        return first, second, TablePairs(ez.reshape(shape)[()], ex.reshape(shape)[()])
 
     def beyond(self, normal_speed: Any, contact: TableContact | None = None) -> Any:
         """Whether normal speeds (m/s) are outside the range, whose end is then taken."""
@@ -387,15 +399,20 @@ def _struct(contact):
 
 def _speeds(normal, sliding):
     """Both as contiguous arrays of one dimension, and their broadcast shape."""
-    both = np.broadcast_arrays(np.asarray(normal, float), np.asarray(sliding, float))
-    return (*(np.ascontiguousarray(one).ravel() for one in both), both[0].shape)
+    both = {"normal_speed": normal, "sliding_speed": sliding}
+    both = {name: numbers(name, value) for name, value in both.items()}
+    shape = broadcast(both)
+    return (*(np.ascontiguousarray(np.broadcast_to(one, shape)).ravel()
+              for one in both.values()), shape)
 
 
 def _scene(material, contact):
     """The one contact of these keywords: a restitute_scene, and what must outlive it."""
-    if "speed" not in contact and "normal_speed" not in contact:
-        contact = {**contact, "speed": 1.0}  # the library does not use it
-    impacts = Impacts(material, **contact)
+    for name in ("speed", "normal_speed", "tangential_speed", "angle", "spin", "spin2"):
+        if name in contact:
+            raise TypeError(f"'{name}' is no keyword of a table, which is of all speeds and angles"
+                            " (see speeds)")
+    impacts = Impacts(material, **contact, speed=1.0)  # the library does not use it
     if impacts.kind != "scene" or impacts.shape:
         raise errors.DomainError("a table is of one contact in SI units, not of arrays or chi")
     if impacts.refused:
@@ -437,6 +454,7 @@ def build_tables(materials: Sequence[Any], *, executor: Any = None, threads: int
     >>> tables[0][1] is tables[1][0], len(tables)
     (True, 2)
     """
+    threads = whole("threads", threads, 0, 1024) or os.cpu_count() or 1
     pairs = [(i, j) for j in range(len(materials)) for i in range(j + 1)]
     tasks = [(materials[i], "same" if i == j else materials[j], keywords) for i, j in pairs]
     pool = None if executor else ThreadPoolExecutor(threads)

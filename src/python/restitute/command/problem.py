@@ -326,7 +326,7 @@ def _missing(name, place):
 
 def _solid(given, place):
     """The solids of moduli, an array of their shape."""
-    from restitute.materials import shear_modulus, solids
+    from restitute.constants import shear_modulus, solids
 
     ratio, modulus1 = given.get("poisson_ratio", 0.5), given.get("modulus1")
     if modulus1 is None and ("youngs_modulus" in given or "shore_a" in given):

@@ -104,8 +104,9 @@ def _build(arguments):
     if not values:
         raise Refusal("no table is described: give --material, or moduli, and a contact; see "
                       "--help")
-    keywords = problem.keywords({**values, "speed": 1.0}, place)  # the library does not use it
+    keywords = problem.keywords({**values, "speed": 1.0}, place)  # for the scene in words alone
     scene = re.sub(r": .* degrees, ", ": ", problem.impacts(keywords, place).describe())
+    del keywords["speed"]
     _check_places(arguments, values)
     settings = {name: getattr(arguments, name) for name in
                 ("tolerance", "max_impacts", "time_limit") if name in arguments.given}

@@ -81,7 +81,7 @@ class Figure:
     aims : dict of str to ndarray, shape (n,)
         psi, delta1, gamma, tau/T (nan: no Maxwell body) of each impact; without "temperature".
     columns : dict of str to ndarray, shape (n,)
-        The impacts in SI units, by keywords of `restitute.pair` and `materials.solids`.
+        The impacts in SI units, by keywords of `restitute.pair` and `restitute.solids`.
     pairs
         What came out, once `solve` was called.
 

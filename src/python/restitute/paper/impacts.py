@@ -12,7 +12,7 @@ import warnings
 import numpy as np
 
 from restitute import errors
-from restitute.materials import solids
+from restitute.constants import solids
 
 CHI = 7 / 6  # an incompressible solid sphere
 
@@ -41,7 +41,7 @@ class Random:
 
 
 def draw(random: Random, psi, delta1, gamma, tau) -> dict:
-    """An impact with these numbers, by the keywords of `restitute.pair` and `materials.solids`.
+    """An impact with these numbers, by the keywords of `restitute.pair` and `restitute.solids`.
 
     Sizes, densities, moduli, friction, speeds, Poisson's ratio and moments of inertia are random, a
     wall or a second sphere; viscosity and sliding speed, part of it by spin, follow. psi = 0: no

@@ -40,7 +40,7 @@ def history(history: Any, *, dimensionless: bool | None = None, ax: Any = None) 
     """
     ax = axes_of(ax, 3)
     if dimensionless is None:
-        dimensionless = history.result.impacts.kind == "impact"
+        dimensionless = history.result.of_the_paper
     scale, unit = (1.0, "T") if dimensionless else _prefix(history.time, "s")
     for panel, (title, first, second, si, plain) in zip(ax, _PANELS):
         values = {name: np.asarray(getattr(history, name)) for name in (first, second)}

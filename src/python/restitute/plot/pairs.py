@@ -8,7 +8,9 @@ from typing import Any
 import matplotlib
 import numpy as np
 
+from restitute.errors import DomainError
 from restitute.plot.sheet import RED, STYLE, axes_of, legend, look
+from restitute.values import fit_shape, one_of
 
 QUANTITIES = {"ez": "$e_z$", "ex": "$e_x$"}
 TITLES = {"ez": "Normal restitution", "ex": "Tangential restitution"}
@@ -94,10 +96,12 @@ def lines(x: Any, pairs: Any, quantity: str = "ez", *, curves: Any = None, key: 
     -------
     ax : Axes
     """
+    one_of("quantity", quantity, QUANTITIES)
     ax = axes_of(ax)
     y = np.asarray(getattr(pairs, quantity), float)
-    given = (x, 0 if curves is None else curves, getattr(pairs, "flags", 0))
-    x, of, flags = (np.broadcast_to(values, y.shape).ravel() for values in given)
+    given = {"x": x, "curves": 0 if curves is None else curves,
+             "flags": getattr(pairs, "flags", 0)}
+    x, of, flags = (fit_shape(*one, y.shape).ravel() for one in given.items())
     y, (names, of) = y.ravel(), np.unique(of, return_inverse=True)
     for k, name in enumerate(names):
         rows = np.flatnonzero(of.ravel() == k)
@@ -144,13 +148,19 @@ def map(x: Any, y: Any, pairs: Any, quantity: str = "ex", *, xlabel: str = "spee
     -------
     ax : Axes
     """
+    one_of("quantity", quantity, QUANTITIES)
     ax = axes_of(ax)
     z = np.asarray(getattr(pairs, quantity), float)
-    (x, i), (y, j) = (np.unique(np.broadcast_to(v, z.shape), return_inverse=True) for v in (x, y))
+    (x, i), (y, j) = (np.unique(fit_shape(name, values, z.shape), return_inverse=True)
+                      for name, values in (("x", x), ("y", y)))
     shape, nodes = (len(y), len(x)), (j.ravel(), i.ravel())
+    different = len(np.unique(nodes[0] * len(x) + nodes[1]))
+    if min(shape) < 2 or different < z.size or 2 * different < len(x) * len(y):
+        raise DomainError(f"map: {z.size} pairs are no grid of {len(x)} values of x by {len(y)} of "
+                          "y, each node at most once, few missing and both at least 2")
     full, flags = np.full(shape, np.nan), np.zeros(shape, int)
     full[nodes] = z.ravel()
-    flags[nodes] = np.broadcast_to(getattr(pairs, "flags", 0), z.shape).ravel()
+    flags[nodes] = fit_shape("flags", getattr(pairs, "flags", 0), z.shape).ravel()
     ax.set(xlim=_scale(ax, "x", x, log[0]), ylim=_scale(ax, "y", y, log[1]), xlabel=xlabel,
            ylabel=ylabel)
     levels = _levels(full, noise)
