@@ -23,15 +23,13 @@ def numbers(name: str, value: Any, kinds: str = "iuf") -> np.ndarray:
     unmasked(name, value)
     try:
         array = np.asarray(value)
-        if array.dtype.kind in kinds or array.dtype.kind == "O" and all(map(_is_real, array.flat)):
+        if array.dtype.kind in kinds or array.dtype.kind == "O" and all(
+                "b" in kinds if isinstance(one, (bool, np.bool_)) else hasattr(one, "__float__")
+                for one in array.flat):
             return array.astype(float, copy=False)
     except (TypeError, ValueError, OverflowError):
         pass
     raise DomainError(f"{name} = {shown(value)}: must be a number or an array of numbers")
-
-
-def _is_real(value):
-    return hasattr(value, "__float__") and not isinstance(value, (bool, np.bool_))
 
 
 def unmasked(name: str, value: Any) -> None:
