@@ -21,6 +21,7 @@ module restitute_table_module
   public :: restitute_table, restitute_table_options, restitute_table_contact, restitute_table_info
   public :: restitute_table_data
   public :: restitute_table_build, restitute_table_build_many, restitute_table_destroy, restitute_table_progress
+  public :: restitute_table_interrupted
   public :: restitute_table_contact_set, restitute_table_pair, restitute_table_pair_many, restitute_table_collide
   public :: restitute_table_flags, restitute_table_describe, restitute_table_data_get, restitute_table_create
   public :: restitute_table_arrays, restitute_table_arrays_set
@@ -30,13 +31,15 @@ module restitute_table_module
     type(c_ptr) :: address = c_null_ptr
   end type restitute_table
 
-  !> How to build.
+  !> How to build; interrupted = c_funloc(a restitute_table_interrupted).
   type, bind(c) :: restitute_table_options
     integer(c_size_t) :: struct_size = 0
     real(c_double) :: speed(2) = 0, tolerance = 0
     integer(c_int) :: threads = 0
     integer(c_int64_t) :: max_impacts = 0
     real(c_double) :: time_limit = 0, speed_limit = 0, radius_limit = 0, displacement_limit = 0
+    type(c_funptr) :: interrupted = c_null_funptr
+    type(c_ptr) :: interrupted_data = c_null_ptr
   end type restitute_table_options
 
   !> Another contact that a table serves, filled by restitute_table_contact_set.
@@ -91,6 +94,11 @@ module restitute_table_module
       type(c_ptr), value :: data
       integer(c_size_t), value :: done, count
     end subroutine restitute_table_progress
+    !> Nonzero: stop. Data is options%interrupted_data.
+    integer(c_int) function restitute_table_interrupted(data) bind(c)
+      import
+      type(c_ptr), value :: data
+    end function restitute_table_interrupted
   end interface
 
   interface

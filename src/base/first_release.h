@@ -23,7 +23,7 @@
 #define RST_LAST_contact_details viscous_power
 
 /* table.h */
-#define RST_LAST_table_options displacement_limit
+#define RST_LAST_table_options interrupted_data
 #define RST_LAST_table_contact touch_gap
 #define RST_LAST_table_info version
 #define RST_LAST_table_data ex

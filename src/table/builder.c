@@ -159,7 +159,7 @@ static int create(const restitute_scene *scene, const restitute_table_options *o
     b->solver = calloc((size_t)b->threads, sizeof *b->solver);
     if (!b->solver) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for solvers");
     for (int i = 0; i < b->threads; i++)
-        rst_column_solver_init(&b->contact, rst_part_for_nodes * options->tolerance, &b->solver[i]);
+        rst_column_solver_init(&b->contact, &b->options, rst_part_for_nodes * options->tolerance, &b->solver[i]);
     return RESTITUTE_OK;
 }
 

@@ -48,9 +48,10 @@ double rst_psi_factor(const struct rst_contact *c)
     return c->friction <= 0 ? INFINITY : isinf(c->friction) ? 0 : c->numbers.psi / c->friction;
 }
 
-void rst_column_solver_init(const struct rst_contact *contact, double tolerance, struct rst_column_solver *s)
+void rst_column_solver_init(const struct rst_contact *contact, const restitute_table_options *build, double tolerance,
+                            struct rst_column_solver *s)
 {
-    *s = (struct rst_column_solver){.contact = contact};
+    *s = (struct rst_column_solver){.contact = contact, .build = build};
     restitute_options_init(&s->options);
     s->options.method = restitute_method_sync();
     s->options.tolerance = fmax(1e-8, tolerance);
@@ -75,6 +76,9 @@ int rst_column_begin(struct rst_column_solver *s, double speed, restitute_error 
     restitute_scene scene = s->contact->scene;
     restitute_error why;
     restitute_plan *plan;
+    if (s->build->interrupted && s->build->interrupted(s->build->interrupted_data))
+        return rst_report(error, RESTITUTE_ERROR_INTERRUPTED, "%s",
+                          restitute_status_text(RESTITUTE_ERROR_INTERRUPTED));
     scene.normal_speed = speed;
     const int status = restitute_plan_create_scene(&scene, &s->options, &plan, &why);
     if (status < 0) return name_place(speed, 0, &why, error);

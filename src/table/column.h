@@ -29,13 +29,15 @@ double rst_psi_factor(const struct rst_contact *contact);
 /* One of these belongs to a thread at a time. */
 struct rst_column_solver {
     const struct rst_contact *contact;
+    const restitute_table_options *build;
     restitute_options options;
     restitute_plan *plan; /* of the column; NULL: none yet */
     double speed;         /* of the column, m/s */
 };
 
 /* Its plan is to be destroyed. */
-void rst_column_solver_init(const struct rst_contact *contact, double tolerance, struct rst_column_solver *s);
+void rst_column_solver_init(const struct rst_contact *contact, const restitute_table_options *build, double tolerance,
+                            struct rst_column_solver *s);
 
 /* Values that do not depend on psi. */
 struct rst_column_normal {
@@ -53,7 +55,7 @@ static inline int rst_column_is_too_hard(int status)
 
 /* These return a status < 0 with its message, else OK. */
 
-/* Begin the column at a speed, in m/s. */
+/* Begin the column at a speed, in m/s, unless the build is interrupted. */
 int rst_column_begin(struct rst_column_solver *s, double speed, restitute_error *error);
 
 /* Solve psi = 0 of the column that was begun. */

@@ -417,9 +417,35 @@ static void refusals(void **state)
     restitute_material_destroy(material);
 }
 
+/* Nonzero once it was asked so often. */
+static int asked_enough(void *data)
+{
+    int *left = data;
+    return --*left <= 0;
+}
+
+static void an_interrupted_build_ends_at_once(void **state)
+{
+    restitute_material *material;
+    restitute_error error;
+    restitute_table_options options = options_of(1);
+    (void)state;
+    restitute_scene scene = ball_on(0.05, &material);
+    options.interrupted = asked_enough;
+    for (int often = 1; often < 20; often = 3 * often) { /* at the start, in refinement */
+        restitute_table *table = NULL;
+        int left = often;
+        options.interrupted_data = &left;
+        assert_int_equal(restitute_table_build(&scene, &options, &table, &error), RESTITUTE_ERROR_INTERRUPTED);
+        CHECK(!table && strstr(error.message, "interrupted"), "%s", error.message);
+    }
+    restitute_material_destroy(material);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_interrupted_build_ends_at_once),
         cmocka_unit_test(threads_give_the_same_bits), cmocka_unit_test(a_child_goes_on_with_one_thread),
         cmocka_unit_test(the_material_may_go),        cmocka_unit_test(narrow_ranges),
         cmocka_unit_test(hardly_any_partial_slip),    cmocka_unit_test(data_makes_the_same_table),

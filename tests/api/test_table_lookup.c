@@ -298,8 +298,8 @@ static void structs_of_other_sizes_are_refused(void **state)
     (void)state;
     restitute_body_init(&ball);
     restitute_body_init(&floor);
-    CHECK_SIZES(table_options, displacement_limit, place, &e, restitute_table_build(&scene, given, &none, &e));
-    CHECK_SIZES(table_options, displacement_limit, place, &e,
+    CHECK_SIZES(table_options, interrupted_data, place, &e, restitute_table_build(&scene, given, &none, &e));
+    CHECK_SIZES(table_options, interrupted_data, place, &e,
                 restitute_table_build_many(1, materials, &scene, given, NULL, NULL, &none, &e));
     CHECK_SIZES(table_contact, touch_gap, place, &e, restitute_table_contact_set(table, &scene, (void *)place, &e));
     CHECK_SIZES(table_contact, touch_gap, place, &e, restitute_table_pair(table, given, v, v, &ez, &ex, &e));

@@ -182,12 +182,16 @@ def test_a_table_that_misses_its_tolerance_warns(rubber):
     assert max(table.info.error_ez, table.info.error_ex) > 1e-7
 
 
-def test_ctrl_c_ends_the_wait_for_a_table_at_once(rubber):
+def test_ctrl_c_ends_a_build_and_the_wait_for_it_at_once(rubber):
+    before = threading.active_count()
     threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()
     since = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
         restitute.Table.build(rubber, **BALL, tolerance=1e-7, time_limit=5, max_impacts=10**6)
     assert time.monotonic() - since < 2  # the build itself would take 4 s and more
+    while threading.active_count() > before:  # it ends, too
+        time.sleep(0.01)
+    assert time.monotonic() - since < 3
 
 
 def test_tables_of_all_pairs_are_those_built_one_by_one_here_or_elsewhere(rubber):

@@ -191,12 +191,17 @@ def members(value):
     return found
 
 
-def interruptible(function, *arguments, keep=None):
+def interruptible(function, *arguments, keep=None, options=None):
     """`call` in a thread of its own, so that Ctrl-C ends the wait at once.
 
-    The call itself goes on to its end. Until then `keep` lives, what its pointers lead to.
+    The call itself ends where it asks `options.interrupted`, or goes on to its end without
+    `options`. Until then `keep` lives, what its pointers lead to.
     """
     outcome: queue.SimpleQueue = queue.SimpleQueue()
+    ended = threading.Event()
+    if options is not None:
+        options.interrupted = ask = ffi.callback("int(void *)", lambda _: int(ended.is_set()))
+        keep = keep, options, ask
 
     def run(keep):
         try:
@@ -205,7 +210,10 @@ def interruptible(function, *arguments, keep=None):
             outcome.put(problem)
 
     threading.Thread(target=run, args=(keep,), daemon=True).start()
-    found = outcome.get()
+    try:
+        found = outcome.get()
+    finally:
+        ended.set()
     if isinstance(found, BaseException):
         raise found
     return found

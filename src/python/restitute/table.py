@@ -159,7 +159,8 @@ class Table:
         handle = ffi.new("restitute_table **")
         scene, kept = _scene(material, contact)
         function = _library.table.restitute_table_build
-        status, message = _library.interruptible(function, scene, options, handle, keep=kept)
+        status, message = _library.interruptible(function, scene, options, handle, keep=kept,
+                                                 options=options)
         if message:
             _library.warn(message, errors.ToleranceWarning if status else errors.ModelLimitWarning)
         return cls(handle[0])

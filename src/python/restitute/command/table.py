@@ -112,7 +112,10 @@ def _build(arguments):
                 ("tolerance", "max_impacts", "time_limit") if name in arguments.given}
     if arguments.speed:
         settings["speeds"] = arguments.speed
-    table = restitute.Table.build(**keywords, **settings, threads=arguments.threads or 0)
+    try:
+        table = restitute.Table.build(**keywords, **settings, threads=arguments.threads or 0)
+    except restitute.DomainError as why:
+        raise Refusal(re.sub("^speeds", place("speed"), str(why))) from None
     table.save(arguments.output)
     info = table.info
     emit(f"{shown(scene)}\n{shown(arguments.output)}: errors {info.error_ez:.2g} (ez), "

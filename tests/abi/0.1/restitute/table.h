@@ -69,6 +69,10 @@ typedef struct restitute_table_options {
                               machine. Its stated errors hold */
     /** as in @ref restitute_options, with the same defaults */
     double speed_limit, radius_limit, displacement_limit;
+    /** asked at every speed before its impacts are solved, from any thread of the build; nonzero
+     *  ends the call with ERROR_INTERRUPTED. NULL (default): nobody is asked */
+    int (*interrupted)(void *data);
+    void *interrupted_data; /**< is handed to it */
 } restitute_table_options;
 
 /** Prepare with the defaults named above. */
@@ -84,8 +88,8 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, table_options)
  *  @param error    optional; its message says if contact times leave the window of the material,
  *                  @ref restitute_material_set_window
  *  @return OK; TOLERANCE_NOT_REACHED: a table whose verified error is above the tolerance;
- *          ERROR_DOMAIN, ERROR_NULL, ERROR_MEMORY, ERROR_STRUCT_SIZE, ERROR_TOO_MUCH_WORK, and what
- *          the solver may return for an impact */
+ *          ERROR_DOMAIN, ERROR_NULL, ERROR_MEMORY, ERROR_STRUCT_SIZE, ERROR_TOO_MUCH_WORK,
+ *          ERROR_INTERRUPTED, and what the solver may return for an impact */
 RESTITUTE_SINCE_0_1 int restitute_table_build(const restitute_scene *scene,
     const restitute_table_options *options, restitute_table **table, restitute_error *error);
 
