@@ -286,7 +286,8 @@ class Material:
         info.wlf_c1, info.wlf_c2, info.wlf_reference = self.wlf
         call(_library.files.restitute_material_at_temperature, self._handle, info, temperature,
              made)
-        return Material(made[0], **{**self._about(), "temperature": temperature})
+        about: dict = {**self._about(), "temperature": temperature}
+        return Material(made[0], **about)
 
     def _about(self) -> dict[str, Any]:
         names = ("name", "source", "model", "density", "temperature", "wlf")
