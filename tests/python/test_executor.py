@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Work in chunks: threads, processes, dask, MPI; workers that die; the bits of one thread."""
 
+import copy
 import os
 import pickle
 import shutil
@@ -8,7 +9,7 @@ import signal
 import subprocess
 import sys
 import time
-from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import BrokenExecutor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 
 import numpy as np
@@ -122,6 +123,12 @@ def test_a_dask_cluster_gives_the_same_bits_though_a_worker_is_killed(monkeypatc
     distributed = pytest.importorskip("distributed")
     killed = []
     monkeypatch.chdir(tmp_path)
+    # a busy machine answers late, and a worker that starts late is no worker that failed
+    import dask
+
+    late = {f"distributed.comm.timeouts.{name}": "120s" for name in ("connect", "tcp")}
+    monkeypatch.setattr(dask.config, "config", copy.deepcopy(dask.config.config))
+    dask.config.set({**late, "distributed.scheduler.allowed-failures": 10})
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None,
                                   local_directory=str(tmp_path), silence_logs=50) as cluster:
         with distributed.Client(cluster) as client:
@@ -133,6 +140,26 @@ def test_a_dask_cluster_gives_the_same_bits_though_a_worker_is_killed(monkeypatc
 
             assert same_bits(pair(RUBBER, **BALL, executor=client, chunk=2, progress=kill))
             assert len(killed) == 1
+
+
+def test_a_result_that_is_lost_on_its_way_from_dask_is_asked_for_again():
+    class Lost(Future):
+        status = "finished"
+
+        def result(self, timeout=None):
+            raise OSError("timed out")
+
+    class Client:
+        scheduler_info, asked = None, 0
+
+        def submit(self, function, item, pure):
+            self.asked += 1
+            future = Lost() if self.asked == 2 else Future()
+            future.set_result(function(item))
+            return future
+
+    client = Client()
+    assert list(map_chunks(abs, [-1, -2, -3], client)) == [1, 2, 3] and client.asked == 4
 
 
 def test_ranks_of_mpi_give_the_bits_of_one_thread(tmp_path):

@@ -37,7 +37,8 @@ if TYPE_CHECKING:  # which names there are, for type checkers
     from restitute.materials import Material, material, material_names
     from restitute.scenes import Impacts, describe
     from restitute.solving import methods
-    from restitute.table import Table, build_tables
+    from restitute.table import Table
+    from restitute.tables import build_tables
 
 # Where each name comes from at run time, as above.
 _HOME = {name: module for module, names in {
@@ -48,7 +49,8 @@ _HOME = {name: module for module, names in {
     "executor": "map_chunks", "fitting": "fit_dma fit_drop_test", "histories": "History history",
     "impact": "Pairs pair solve",
     "materials": "Material material material_names",
-    "scenes": "Impacts describe", "solving": "methods", "table": "Table build_tables",
+    "scenes": "Impacts describe", "solving": "methods", "table": "Table",
+    "tables": "build_tables",
 }.items() for name in names.split()}
 __all__ = sorted([*_HOME, "paper", "plot", "version"])
 

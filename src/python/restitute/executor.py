@@ -81,7 +81,8 @@ class _Dask:
         try:
             future.set_result(of_dask.result())
         except BaseException as error:
-            future.set_exception(error)
+            failed = of_dask.status == "error"  # else the result was lost on its way
+            future.set_exception(error if failed else CancelledError())
 
 
 class _Run:

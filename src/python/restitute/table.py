@@ -4,82 +4,26 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from types import SimpleNamespace
-from typing import Any, Callable
+from typing import Any
 
 import numpy as np
 
 from restitute import _library, errors
 from restitute._library import call, ffi
 from restitute.collisions import Body, after, records_of
-from restitute.executor import map_chunks
 from restitute.impact import LIMITS
+from restitute.lookups import TableContact, TablePairs
 from restitute.materials import Material
 from restitute.scenes import Impacts
-from restitute.values import broadcast, fit_shape, numbers, span, whole
+from restitute.values import broadcast, fit_shape, numbers
 
-__all__ = ["Table", "TableContact", "TablePairs", "build_tables"]
+__all__ = ["Table"]
 
 _FROM = (("fast_speed", "not slow against shear waves from {:.4g} m/s on"),
          ("large_contact_speed", "contact not small against the sphere from {:.4g} m/s on"),
          ("long_slide_speed", "long slide at 45 degrees from {:.4g} m/s on"))
-
-
-class TableContact:
-    """Another contact that a table serves, made by `Table.contact`.
-
-    Attributes
-    ----------
-    speed_factor, psi_factor : float
-        Speed in the table over speed of this contact; psi v_n/|v_t|.
-    radius, mass : float
-        Effective ones, m and kg.
-    """
-
-    def __init__(self, **members: Any):
-        self.struct = _library.struct("table_contact", "table", **members)
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_") or name == "struct":
-            raise AttributeError(name)
-        return getattr(self.struct, name)
-
-    def __reduce__(self):
-        return partial(TableContact, **_library.members(self.struct)), ()
-
-
-class TablePairs:
-    """Pairs from a table. `ez, ex = table.pair(...)` takes them apart.
-
-    Attributes
-    ----------
-    ez, ex : ndarray
-        Of the broadcast shape of the speeds.
-    """
-
-    def __init__(self, ez: Any, ex: Any, flags: Any = None):
-        self.ez, self.ex, self._flags = ez, ex, flags
-
-    @property
-    def flags(self) -> Any:
-        """Which limits of the model are passed (`Table.flags`); None for a contact that is not
-        the table's own."""
-        if callable(self._flags):
-            self._flags = self._flags()
-        return self._flags
-
-    def __iter__(self):
-        return iter((self.ez, self.ex))
-
-    def __reduce__(self):
-        return TablePairs, (self.ez, self.ex, self.flags)
-
-    def __repr__(self):
-        count = " x ".join(map(str, np.shape(self.ez))) or "1"
-        return f"TablePairs({count}: ez {span(self.ez, digits=3)}, ex {span(self.ex, digits=3)})"
 
 
 class Table:
@@ -419,56 +363,3 @@ def _scene(material, contact):
     if impacts.refused:
         raise errors.DomainError(impacts.refused[0])
     return _library.pointer(impacts.bound(), "restitute_scene[]"), impacts
-
-
-def build_tables(materials: Sequence[Any], *, executor: Any = None, threads: int = 1,
-                 retries: int = 3, progress: Callable[[int, int], Any] | None = None,
-                 **keywords: Any) -> list[list[Table]]:
-    """The tables of all pairs of some materials: both bodies deform.
-
-    Parameters
-    ----------
-    materials : sequence of n Materials, names or paths
-    executor : concurrent.futures.Executor or distributed.Client, optional
-        Build there, a table a task; by default in `threads` threads. The bits are the same.
-    progress : callable
-        progress(tables done, of all).
-    **keywords
-        As of `Table.build`, without `partner`.
-
-    Returns
-    -------
-    list of n lists of n Tables
-        tables[i][j] is tables[j][i], of the materials i and j.
-
-    Raises
-    ------
-    DomainError, SolverError
-        The first failure. What runs then, or at Ctrl-C, ends within its `time_limit`.
-
-    Examples
-    --------
-    >>> import restitute
-    >>> rubber, glass = restitute.Material.kelvin_voigt(1e6, 50.0), restitute.Material.elastic(1e7)
-    >>> tables = build_tables([rubber, glass], radius=0.01, density=1000, friction=0.3,
-    ...                       speeds=(0.01, 1), tolerance=1e-2)
-    >>> tables[0][1] is tables[1][0], len(tables)
-    (True, 2)
-    """
-    threads = whole("threads", threads, 0, 1024) or os.cpu_count() or 1
-    pairs = [(i, j) for j in range(len(materials)) for i in range(j + 1)]
-    tasks = [(materials[i], "same" if i == j else materials[j], keywords) for i, j in pairs]
-    pool = None if executor else ThreadPoolExecutor(threads)
-    try:
-        built = dict(zip(pairs, map_chunks(_build_task, tasks, executor or pool, retries=retries,
-                                           progress=progress)))
-    finally:
-        if pool:
-            pool.shutdown(wait=False)
-    count = range(len(materials))
-    return [[built[min(i, j), max(i, j)] for j in count] for i in count]
-
-
-def _build_task(task):
-    material, partner, keywords = task
-    return Table.build(material, partner=partner, **keywords)

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What tables are asked for, and what they answer."""
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from restitute import _library
+from restitute.values import span
+
+__all__ = ["TableContact", "TablePairs"]
+
+
+class TableContact:
+    """Another contact that a table serves, made by `Table.contact`.
+
+    Attributes
+    ----------
+    speed_factor, psi_factor : float
+        Speed in the table over speed of this contact; psi v_n/|v_t|.
+    radius, mass : float
+        Effective ones, m and kg.
+    """
+
+    def __init__(self, **members: Any):
+        self.struct = _library.struct("table_contact", "table", **members)
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or name == "struct":
+            raise AttributeError(name)
+        return getattr(self.struct, name)
+
+    def __reduce__(self):
+        return partial(TableContact, **_library.members(self.struct)), ()
+
+
+class TablePairs:
+    """Pairs from a table. `ez, ex = table.pair(...)` takes them apart.
+
+    Attributes
+    ----------
+    ez, ex : ndarray
+        Of the broadcast shape of the speeds.
+    """
+
+    def __init__(self, ez: Any, ex: Any, flags: Any = None):
+        self.ez, self.ex, self._flags = ez, ex, flags
+
+    @property
+    def flags(self) -> Any:
+        """Which limits of the model are passed (`Table.flags`); None for a contact that is not
+        the table's own."""
+        if callable(self._flags):
+            self._flags = self._flags()
+        return self._flags
+
+    def __iter__(self):
+        return iter((self.ez, self.ex))
+
+    def __reduce__(self):
+        return TablePairs, (self.ez, self.ex, self.flags)
+
+    def __repr__(self):
+        count = " x ".join(map(str, np.shape(self.ez))) or "1"
+        return f"TablePairs({count}: ez {span(self.ez, digits=3)}, ex {span(self.ex, digits=3)})"
