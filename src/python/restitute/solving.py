@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -110,7 +109,7 @@ def solve_impacts(impacts: Impacts, settings: dict, *, energies: bool = False, s
         Called with the number of impacts done and of all.
     """
     total = len(impacts)
-    size = min(-(-total // 256), 4096) if chunk is None else whole("chunk", chunk, 1, sys.maxsize)
+    size = min(-(-total // 256), 4096) if chunk is None else whole("chunk", chunk, 1, 10**9)
     if executor is None or total == 0:
         return _solve_here(impacts, settings, energies, stop, progress)
     tasks = [(impacts[i:i + size], {**settings, "threads": 1}, energies, stop, None)

@@ -14,7 +14,8 @@ __all__ = ["broadcast", "fit_shape", "number", "numbers", "one_of", "refuse", "s
            "whole"]
 
 
-def numbers(name: str, value: Any, kinds: str = "iuf") -> np.ndarray:
+def numbers(name: str, value: Any, kinds: str = "iuf",
+            words: str = "a number or an array of numbers") -> np.ndarray:
     """An array of float; `kinds` are NumPy's letters of what is a number.
 
     >>> numbers("speed", [1, 2])
@@ -29,7 +30,7 @@ def numbers(name: str, value: Any, kinds: str = "iuf") -> np.ndarray:
             return array.astype(float, copy=False)
     except (TypeError, ValueError, OverflowError):
         pass
-    raise DomainError(f"{name} = {shown(value)}: must be a number or an array of numbers")
+    raise DomainError(f"{name} = {shown(value)}: must be {words}")
 
 
 def unmasked(name: str, value: Any) -> None:
@@ -40,7 +41,7 @@ def unmasked(name: str, value: Any) -> None:
 
 def number(name: str, value: Any) -> float:
     """One number."""
-    array = numbers(name, value)
+    array = numbers(name, value, words="one number")
     if array.ndim:
         raise DomainError(f"{name} = {shown(value)}: must be one number, no array")
     return float(array)
