@@ -28,11 +28,12 @@ SECTIONS = (
      ("docs/materials.md", "materials/*")),
     ("Reference", "Every name and every option.",
      ("reference/python.md", "reference/c.md", "docs/manual.md", "docs/fortran.md",
-      "docs/conventions.md", "CHANGELOG.md", "CONTRIBUTING.md")),
+      "docs/conventions.md", "docs/reference_impacts.md", "CHANGELOG.md", "CONTRIBUTING.md")),
     ("Theory", "The equations, and how each method solves them.",
      ("docs/theory.md", "docs/sync.md", "docs/cvode.md", "docs/bem.md")),
     ("Records", "What was measured: errors, run times, comparisons.", ("docs/records/*",)),
-    ("Guides", "How to do one thing.", ("docs/python.md", "docs/gallery.md", "docs/fit.md", "*")),
+    ("Guides", "How to do one thing.", ("docs/python.md", "docs/c_library.md", "docs/fit.md", "docs/soft_contacts.md", "docs/trust.md",
+      "docs/dem.md", "docs/contact.md", "docs/table.md", "docs/*", "examples/*", "*")),
 )
 TITLES = {"README.md": "Overview <{}>", "docs/README.md": "All pages <{}>"}
 ORDER = ("Start", "Guides", "Materials", "Reference", "Theory", "Records")

@@ -11,6 +11,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 LABELS = ("constant restitution 0.8", "Kelvin-Voigt, no friction", "Kelvin-Voigt, friction 0.3",
           "standard solid, no friction", "polyisobutylene, friction 0.3")
 COLOURS = ("#888888", "#1f6f8b", "#c4451c", "#5b8c2a", "#7a4fa3")
+DASHES = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (6, 2, 1.5, 2)), (0, (9, 2, 3, 2)))  # for grey print
 
 
 def courses(path):
@@ -28,10 +29,11 @@ def main(table, figure):
     plt.rcParams.update({"svg.hashsalt": "restitute", "svg.fonttype": "none", "axes.grid": True,
                          "grid.color": "#dddddd"})
     sheet, (left, right) = plt.subplots(1, 2, figsize=(10, 4.6), layout="constrained")
-    for gas, label, colour in zip(courses(table), LABELS, COLOURS):
-        left.loglog(gas["time"], gas["T"], color=colour, linewidth=2.5)
-        left.loglog(gas["time"], gas["T_theory"], ":", color="black", linewidth=1)
-        right.semilogx(gas["time"], gas["exponent"], color=colour, linewidth=2.5, label=label)
+    for gas, label, colour, dash in zip(courses(table), LABELS, COLOURS, DASHES):
+        left.loglog(gas["time"], gas["T"], color=colour, linestyle=dash, linewidth=2.5)
+        left.loglog(gas["time"], gas["T_theory"], ":", color="black", linewidth=1, alpha=0.8)
+        right.semilogx(gas["time"], gas["exponent"], color=colour, linestyle=dash, linewidth=2.5,
+                       label=label)
     left.plot([], [], ":", color="black", label="theory, Maxwell's velocities")
     left.set(ylabel="temperature T / T₀")
     right.set(ylabel="p, where T falls as 1 / time to the power p", ylim=(0, 2.6), xlim=(10, None),

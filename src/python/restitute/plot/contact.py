@@ -108,10 +108,12 @@ def fit(fit: Any, *, ax: Any = None) -> Any:
     if not dma and fit.flags & 8:  # RESTITUTE_FIT_FLAG_LIMITS
         ax[1].plot([], [], "x", color=RED, label="some impacts are\nbeyond a limit\nof the model")
     xlabel = "frequency × shift (Hz)" if dma else _SPEED
-    ax[0].set(title="data (points) and fit (lines)", xscale="log", xlabel=xlabel,
+    low, high = ax[1].dataLim.intervalx  # on a short logarithmic axis numbers run into each other
+    xscale = "log" if dma or high > 5 * low else "linear"
+    ax[0].set(title="data (points) and fit (lines)", xscale=xscale, xlabel=xlabel,
               yscale="log" if dma else "linear",
               ylabel="shear moduli (Pa)" if dma else "restitution")
-    ax[1].set(title="residuals", xscale="log", xlabel=xlabel,
+    ax[1].set(title="residuals", xscale=xscale, xlabel=xlabel,
               ylabel="measured / fitted − 1" if dma else "measured − fitted")
     legend(ax[1])
     return ax

@@ -113,7 +113,7 @@ def lines(x: Any, pairs: Any, quantity: str = "ez", *, curves: Any = None, key: 
     _scale(ax, "x", x, log)
     ax.set(xlabel=xlabel, ylabel=QUANTITIES[quantity])
     if quantity == "ez":
-        ax.set_ylim(bottom=0)
+        ax.set_ylim(0, 1.03 * ax.get_ylim()[1])  # marks at the top are not cut
     legend(ax, key)
     return ax
 
