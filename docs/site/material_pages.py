@@ -33,7 +33,8 @@ A solid ball hits a thick wall. One of them is of this material and the other on
 Shaded is what lies beyond the [limits of the model](../docs/theory.md#11-when-the-model-holds): a
 contact radius above {radius:g} of the ball's radius, a normal speed above {speed:g} of the shear
 wave speed, a slide above {displacement:g} of the contact radius{window}. There the numbers are those
-of the model and not of the ball.
+of the model and not of the ball. [How far off they are](../docs/soft_contacts.md) depends on which
+of the two is soft.
 
 The figure interpolates in a table that the library made. {count} random impacts within the ranges
 of the sliders differ by less than {error_ez:.1g} in e_z and {error_ex:.1g} in e_x from what the

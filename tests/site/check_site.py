@@ -23,7 +23,7 @@ WIDTHS = (1280, 390)
 PICTURES = ("index", "README", "docs/README", "docs/theory", "docs/gallery", "docs/python", "docs/table",
             "examples/lammps/README", "examples/python/from_a_drop_test_to_a_map", "reference/python",
             "reference/c", "include/restitute/restitute.h", "materials/polyisobutylene", "materials/steel")
-SETTINGS = 8  # a material
+SETTINGS = 6  # a material
 
 
 def browser():
