@@ -41,7 +41,7 @@ def main(table, figure):
               yticklabels=("0", "0.5", "1", "1.5", "5/3", "2", "2.5"))
     for axes, place in ((left, "lower left"), (right, "lower right")):
         axes.set_xlabel("time, mean free paths over the first rms speed")
-        axes.legend(loc=place)
+        axes.legend(loc=place, handlelength=3.6)
     sheet.savefig(figure, metadata={"Date": None} if figure.endswith(".svg") else {})
 
 
