@@ -13,7 +13,7 @@ _EPILOG = """One impact:
 Many, from a file or a grid:
   restitute pair --input cases.csv --output results.csv
   restitute pair --material polyisobutylene --radius 0.005 --density 7800 --friction 0.3 \\
-      --grid speed=1e-4:0.05:9:log,angle=5:85:9 --output grid.csv --figure grid.svg
+      --grid speed=1e-4:0.05:9:log,angle=0:80:9 --output grid.csv --figure grid.svg
 
 Columns of CASES.csv:
 {columns}
