@@ -68,14 +68,12 @@ def _constants(material):
         rows += [("shear modulus after long times", _pascal(series.equilibrium_modulus)),
                  ("relaxation times", f"{len(series.modulus)}: {low:.3g} s to {high:.3g} s"
                   if len(series.modulus) > 1 else f"{low:.3g} s")]
-    if np.isfinite(material.window[1]):
-        rows.append(("measured between", "{:.2g} s and {:.2g} s".format(*material.window)))
     if np.isfinite(material.temperature):
         rows.append(("temperature", f"{material.temperature:g} °C"))
     if series.parallel_viscosity > 0:
         rows.append(("viscosity", _number(series.parallel_viscosity) + " Pa s"))
     if window:
-        rows.append(("measured at times of", f"{window[0]:.3g} s to {window[1]:.3g} s"))
+        rows.append(("measured between", f"{window[0]:.2g} s and {window[1]:.2g} s"))
     return "| | |\n|---|---|\n" + "".join(f"| {name} | {value} |\n" for name, value in rows)
 
 
