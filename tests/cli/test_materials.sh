@@ -4,10 +4,13 @@
 # value and range.
 . "$(dirname -- "$0")/common.sh"
 
+echo material >all.csv
 for file in "$materials"/*.json; do
-    expect 0 pair --material "$file" --radius 0.005 --density 1000 --partner same --friction 0.2 --velocity 0.1 --angle 30
     has "$file" '"source"' '"name"'
+    echo "$file" >>all.csv
 done
+expect 0 pair --input all.csv --output all-results.csv --radius 0.005 --density 1000 --partner same --friction 0.2 \
+    --speed 0.1 --angle 30
 
 # material JSON...: the file m.json of these lines; pair_of_it runs it.
 material() { printf '%s\n' "$@" >m.json; }
