@@ -1,7 +1,7 @@
 /* Curves and tables of docs/records/measurements.md: what the library says to the impacts of
  * tests/data/kharaz_oblique.csv and fem_oblique.csv.
  *
- *     measurements kharaz|fem               the curve, x,y a line, for gnuplot
+ *     measurements kharaz|fem               the curve, x,y a line, for draw.py
  *     measurements kharaz|fem DATA.csv      the points of the data as rows of a table: x, data, computed, difference
  *
  * SPDX-License-Identifier: BSD-3-Clause */

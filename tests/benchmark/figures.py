@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The figures of the records on run time, for report.py."""
+"""The figures of the records on run time, for report.py.
+
+No text holds a formula beside words: as SVG, most renderers would set both over each other.
+"""
+import textwrap
+
 import matplotlib
 
 matplotlib.use("svg")
@@ -29,23 +34,28 @@ def precision(curves, scenes, path):
         axes.fill_between(time, least, largest, color=COLOURS[method], alpha=0.12, linewidth=0)
         axes.loglog(time, middle, "o-", color=COLOURS[method], markersize=4, label=method)
     axes.set(title=f"Median of {scenes} scenes, band from least to largest error",
-             xlabel="time of one impact (s)", ylabel="larger of the errors of $e_z$ and $e_x$",
+             xlabel="time of one impact (s)", ylabel="larger of the errors of e_z and e_x",
              ylim=(1e-10, 1.5))
     axes.legend(loc="lower left")
     save(figure, path)
 
 
 def omissions(rows, path):
-    """A bar a method and omission."""
-    rows = [row for row in rows if row["ratio"]]
-    figure, axes = plt.subplots(figsize=(9, 1 + 0.24 * len(rows)), layout="constrained")
-    axes.barh(range(len(rows)), [float(row["ratio"]) for row in rows],
-              color=[COLOURS[row["method"]] for row in rows])
-    names = [f"{row['method']}: {row['full']} / {row['lean']}" for row in rows]
-    axes.set_yticks(range(len(rows)), names, fontsize=8)
+    """Bars of an omission, one a method."""
+    names = list(dict.fromkeys(f"{row['left_out']}:\n" + textwrap.fill(
+        f"{row['full']} / {row['lean']}", 60) for row in rows))
+    figure, axes = plt.subplots(figsize=(9, 1.2 + 0.48 * len(names)), layout="constrained")
+    for k, (method, colour) in enumerate(COLOURS.items()):
+        ratios = [float(row["ratio"] or "nan") for row in rows if row["method"] == method]
+        if ratios:
+            axes.barh(np.arange(len(names)) + 0.26 * (k - 1), ratios, 0.24, color=colour,
+                      edgecolor="#444444", linewidth=0.5, label=method)
+    axes.axvline(1, color="#444444", linewidth=0.8)
+    axes.set_yticks(range(len(names)), names, fontsize=8)
     axes.set(xscale="log", xlabel="time of the first over that of the second",
-             ylim=(len(rows) - 0.4, -0.6))
+             ylim=(len(names) - 0.4, -0.6))
     axes.grid(axis="y", visible=False)
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=len(COLOURS), frameon=False)
     save(figure, path)
 
 
@@ -69,24 +79,24 @@ def stability(runs, found, scenes, methods, levels, path):
             axes.set(xticks=range(-6, 7, 3), yticks=range(-6, 7, 3))
             axes.set_title(f"{method}, {10**level} steps", fontsize=9)
             axes.grid(visible=False)
-    figure.supxlabel(r"$\log_{10}\,\delta_1$")
-    figure.supylabel(r"$\log_{10}\,\gamma$")
+    figure.supxlabel("log₁₀ δ₁")
+    figure.supylabel("log₁₀ γ")
     figure.colorbar(plt.cm.ScalarMappable(norm, colours), ax=panels, shrink=0.6,
-                    label=r"$\log_{10}$ of the error of $(e_z, e_x)$")
+                    label="log₁₀ of the error of (e_z, e_x)")
     patches = [Patch(facecolor=c, edgecolor="#888888", label=name) for name, c in OTHERS.items()]
     figure.legend(handles=patches, loc="upper center", ncols=4, frameon=False)
     save(figure, path)
 
 
 def differences(psi, kinds, ez, ex, names, limit, path):
-    """Absolute differences over psi, a colour a kind of solid."""
-    figure, panels = plt.subplots(1, 2, figsize=(9, 4.2), sharey=True, layout="constrained")
+    """Absolute differences over psi, a colour and a mark a kind of solid."""
+    figure, panels = plt.subplots(1, 2, figsize=(10, 4.2), sharey=True, layout="constrained")
     for axes, difference, symbol in zip(panels, (ez, ex), ("e_z", "e_x")):
         axes.axhline(limit, color="#888888", linestyle="--", label=f"{limit:g}")
         for kind, name in enumerate(names):
             chosen = kinds == kind
-            axes.loglog(psi[chosen], np.fmax(1e-8, abs(difference[chosen])), "o", markersize=3,
-                        label=name)
-        axes.set(title=f"|difference in ${symbol}$|", xlabel=r"$\psi$", ylim=(7e-9, 1e-2))
-    panels[0].legend(loc="upper left")
+            axes.loglog(psi[chosen], np.fmax(1e-8, abs(difference[chosen])), "os^v"[kind % 4],
+                        markersize=3, label=name)
+        axes.set(title=f"|difference in {symbol}|", xlabel="ψ", ylim=(7e-9, 1e-2))
+    panels[1].legend(loc="upper left", bbox_to_anchor=(1.01, 1.02), frameon=False)
     save(figure, path)
