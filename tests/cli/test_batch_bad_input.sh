@@ -28,7 +28,10 @@ bad 'psi\n1\n\000\n' 'cases.csv line 3: a NUL byte'
 bad 'psi,psi\n1,0\n' 'column psi appears twice'
 bad 'psi,\n1,0\n' 'column 2 has no name'
 bad 'psi,delta1\n1,"0\n' 'never closed'
-bad 'psi,delta1\n1,0"\n' 'cases.csv line 2'
+bad 'psi,delta1\n1,0"\n' 'cases.csv line 2: a stray quote'
+bad 'psi,ball\n1,a\n2,5" steel\n3\n' 'cases.csv line 3: a stray quote'
+bad 'psi,ball\n1,a\n2,"5"" steel\n3,b\n4,c\n' 'cases.csv line 3: a quote is never closed'
+bad 'psi,ball\n1,a\n2,"b\n3,c"d\n' 'cases.csv lines 3 to 4, which a quote joins: text behind the quote'
 bad 'psi,radius1_m\n1,1\n' 'use one kind'
 bad 'delta1,gamma\n1,1\n' 'psi is missing'
 bad 'psi,delta1,gamma,delta2\n1,1,1,1\n' 'two of them determine the third'
@@ -43,6 +46,7 @@ refused 'is not a regular file' pair --input cases.csv --output folder
 printf 'radius1_m,speed_m_s,friction,density1_kg_m3\n1,1,1,1\n' >cases.csv
 refused 'none.json: cannot be read' pair --input cases.csv --output out.csv --material none.json
 if [ -d /proc/self ]; then
-    refused 'cannot be written' pair --input cases.csv --output /proc/out.csv --material $materials/steel.json
+    refused '/proc/out.csv: cannot be written: no file can be made in this folder' \
+        pair --input cases.csv --output /proc/out.csv --material $materials/steel.json
 fi
 absent out.csv out.csv.meta.json out.csv.partial out.csv.partial.json

@@ -68,6 +68,7 @@ if [ -c /dev/full ]; then
         [ $? -eq 2 ] || fail "a full standard output is not noticed: restitute $command"
         has err 'restitute: standard output cannot be written: No space left on device'
     done
+    refused '/dev/full: cannot be written: No space left on device' pair --input cases.csv --output /dev/full
     "$RESTITUTE" $run >/dev/full 2>err
     grep -q 'row 2000' err && fail "goes on solving for a full standard output"
 fi

@@ -103,7 +103,8 @@ def test_columns_of_older_versions_are_known():
     density2_kg_m3 mass2_kg inertia2_kg_m2 speed_m_s angle_deg spin_rad_s spin2_rad_s friction
     modulus1_Pa modulus2_Pa viscosity_Pa_s poisson_ratio time_shift"""
     found = [problem.field_of_column(name).name for name in old.split()]
-    new = [name for name in problem.FIELDS if name not in ("youngs_modulus", "shore_a")]
+    new = [name for name in problem.FIELDS
+           if name not in ("youngs_modulus", "shore_a", "temperature")]
     assert sorted(found) == sorted(new)
 
 
@@ -225,6 +226,41 @@ def test_a_material_that_is_shown_as_json_is_a_material_file(run, tmp_path, monk
     file = tmp_path / "shown.json"
     file.write_text(run("materials", "show", *words, "--format", "json")[1])
     assert restitute.Material.read(file) == same
+
+
+def test_a_temperature_shifts_the_times_of_the_material(run, tmp_path):
+    warm = restitute.pair(restitute.material("polyisobutylene", 40), radius=0.005, friction=0.3,
+                          speed=0.1, density=920)
+    words = ["pair", *BALL, "--material", "polyisobutylene"]
+    out = run(*words, "--temperature", "40")[1]
+    assert f"ez = {warm.ez:9.6f}" in out and "25 C, shifted to 40 C, R = 5 mm, on a rigid" in out
+    rows = list(csv.DictReader(run(*words, "--grid", "temperature=25:40:2")[1].splitlines()))
+    assert [row["temperature_c"] for row in rows] == ["25", "40"]
+    assert float(rows[1]["ez"]) == warm.ez
+    (tmp_path / "cases.csv").write_text("material,temperature_c\nsteel,\npolyisobutylene,40\n")
+    rows = list(csv.DictReader(
+        run("pair", *BALL, "--input", str(tmp_path / "cases.csv"))[1].splitlines()))
+    assert [float(row["ez"]) for row in rows] == [pytest.approx(1), warm.ez]
+
+
+@pytest.mark.parametrize(("words", "why"), [
+    (["--material", "polyisobutylene", "--temperature", "-200"], "--temperature = -200: must be"),
+    (["--material", "steel", "--temperature", "20"], "no shift of times"),
+    (["--material", "steel", "--temperature", "20"], "take --time-shift"),
+    (["--modulus1", "1e6", "--density", "1e3", "--temperature", "20"], "needs --material"),
+    (["--material", "steel", "--temperature", "20", "--time-shift", "2"], "are both given"),
+    (["--material", "steel", "--partner", "steel", "--temperature", "20"], "without --temperature"),
+])
+def test_a_temperature_without_a_known_shift_is_refused(run, words, why):
+    assert why in refused(run, "pair", *BALL, *words)
+
+
+@pytest.mark.parametrize(("words", "why"), [
+    (["--friction", "-1"], "--friction = -1: must be >= 0 (inf: no slip)"),
+    (["--friction", "1e-40"], "--friction = 1e-40: must be 0 or >= 1e-30 (inf: no slip)")])
+def test_what_the_library_refuses_has_the_name_of_its_option(run, words, why):
+    assert why in refused(run, "pair", "--material", "steel", "--radius", "1", "--speed", "1",
+                          *words)
 
 
 @pytest.mark.parametrize("name", ["pair", "history", "materials"])

@@ -305,6 +305,14 @@ def _names(solids: list[Material]) -> str:
     return names[0] if len(names) == 1 else f"{len(names)} materials"
 
 
+def _is_of_material(records, solids):
+    """Whether spheres have the density of the solid, within a tenth; None: unknown, or some do."""
+    density = np.array([m.density for m in solids])[records["material"].astype(int)]
+    own = records["mass1"] / (4 / 3 * np.pi * records["radius1"]**3)
+    same = np.abs(own / np.where(density > 0, density, np.nan) - 1) <= 0.1
+    return None if (density <= 0).any() or same.any() != same.all() else bool(same.all())
+
+
 def describe(impacts: Any = None, **keywords: Any) -> str:
     """The scene in words, from Impacts or from the keywords of `restitute.pair`.
 
@@ -313,6 +321,8 @@ def describe(impacts: Any = None, **keywords: Any) -> str:
     >>> rubber = Material.elastic(1e6, name="rubber")
     >>> describe("steel", partner=rubber, radius=0.005, speed=1, friction=0.3)
     'sphere of Structural steel, R = 5 mm, on a wall of rubber: 1 m/s, 0 degrees, friction 0.3'
+    >>> describe("steel", radius=0.005, density=2000, speed=1)
+    'rigid sphere, R = 5 mm, on a wall of Structural steel: 1 m/s, 0 degrees, friction 0'
     >>> describe(rubber, radius=[0.001, 0.005], density=1100, speed=1, angle=30)
     'sphere, R = 1 to 5 mm, on a wall, one of them of rubber, the other rigid: 1 m/s, 30 degrees,
     friction 0'
@@ -325,18 +335,22 @@ def describe(impacts: Any = None, **keywords: Any) -> str:
     used = [impacts.solids[i] for i in np.unique(r["material"]).astype(int)]
     wall = np.isinf(r["radius2"])
     other = "a wall" if wall.all() else "a sphere or a wall" if wall.any() else "a sphere"
-    first, second, rigid = "", "", ""
+    which, first, second, rigid = "", "", "", ""
     if all(m.parts for m in used):
         first, second = (f" of {_names([m.parts[k] for m in used])}" for k in (0, 1))
     elif (r["deformable"] == 2).all():
         first, second = f" of {_names(used)}", " of the same"
+    elif wall.all() and (own := _is_of_material(r, impacts.solids)) is not None:
+        made = f" of {_names(used)}"
+        which, first, second = ("", made, "") if own else ("rigid ", "", made)
+        other = "a rigid wall" if own else other
     else:
         rigid = f", one of them of {_names(used)}, the other rigid"
     if not wall.any():
         second += f", R2 = {_length(r['radius2'])}"
     speed = np.hypot(r["normal_speed"], r["tangential_speed"])
     angle = np.degrees(np.arctan2(np.abs(r["tangential_speed"]), r["normal_speed"]))
-    return (f"sphere{first}, R = {_length(r['radius1'])}, on {other}{second}{rigid}: "
+    return (f"{which}sphere{first}, R = {_length(r['radius1'])}, on {other}{second}{rigid}: "
             f"{span(speed, ' m/s')}, {span(angle, ' degrees')}, "
             f"friction {span(r['friction'], '')}"
             f"{', rotation blocked' if (r['rotation_blocked'] != 0).all() else ''}")

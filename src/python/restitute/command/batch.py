@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`restitute pair --input` and `--grid`: rows are solved in pieces, in order, into OUT.partial,
 which becomes OUT at the end."""
-import io
 import os
 import signal
 import time
@@ -24,16 +23,9 @@ _NAMED_FAILURES = 5
 
 
 def run(arguments, made=None):
-    """Solve the rows of a file or a grid.
-
-    Everything that can be refused is, before anything is written.
-
-    Parameters
-    ----------
-    made : optional
-        Instead of them `made.cases`, and `made.source` for the record. At the end
-        `made.finish(batch)` gives the exit status.
-    """
+    """Solve the rows of a file or a grid, or `made.cases`, which `made.source` records; then
+    `made.finish(batch)` gives the exit status. All that can be refused is, before anything is
+    written."""
     _check_options(arguments)
     with _scheduler(arguments) as executor:
         batch = _Batch(arguments, made)
@@ -67,12 +59,7 @@ def _check_options(arguments):
         raise Refusal("--contours: needs --figure")
     if arguments.resume and files.is_stream(arguments.output):
         raise Refusal("--resume: needs --output FILE")
-    files.check(arguments.output, "--output")
     if arguments.figure:
-        if not arguments.figure.lower().endswith((".svg", ".png", ".pdf")):
-            raise Refusal(f"--figure = {arguments.figure}: must be a file that ends in .svg, .png "
-                          "or .pdf")
-        files.check(arguments.figure, "--figure")
         options.need("matplotlib", "--figure")
     if arguments.format is None and (arguments.output or "").lower().endswith((".h5", ".hdf5")):
         options.need("h5py", f"--output = {arguments.output}")
@@ -81,15 +68,8 @@ def _check_options(arguments):
 
 
 class _Batch:
-    """A run.
-
-    Attributes
-    ----------
-    done : int
-        Rows that are written.
-    partial : Partial or None
-        Where they are; None: a stream.
-    """
+    """A run: how many rows are `done` and written, and the Partial where they are; None: a
+    stream."""
 
     def __init__(self, arguments, made):
         from restitute.solving import options as checked
@@ -163,7 +143,12 @@ class _Batch:
         elif self.stream == 1:
             options.emit(text)
         elif self.stream is not None:
-            options.write_all(self.stream, text)
+            try:
+                options.write_all(self.stream, text)
+            except BrokenPipeError:
+                raise
+            except OSError as why:
+                raise files.not_written(self.output, why) from None
 
     def leave(self):
         """Close what is open."""
@@ -173,11 +158,8 @@ class _Batch:
             os.close(self.stream)
 
     def solve(self, executor):
-        """All rows, piece by piece.
-
-        A piece has a row for each thread, and as many more as take about 0.4 s (20 s elsewhere), so
-        that whoever looks on, interrupts or resumes sees rows.
-        """
+        """All rows, piece by piece: a row for each thread, and as many more as take about 0.4 s
+        (20 s elsewhere), so that whoever looks on, interrupts or resumes sees rows."""
         threads = self.arguments.threads or len(os.sched_getaffinity(0))
         size, wanted = (threads, 0.4) if executor is None else (256, 20.0)
         self._name_failures(0, self.done)
@@ -219,7 +201,7 @@ class _Batch:
         record = provenance.record(
             self.arguments, self.settings, self.rows.units(self.given), rows=self.cases.rows,
             failed=int(np.count_nonzero(~self.rows.solved)), remarks=remarks, limits_passed=limits)
-        with _undisturbed():
+        with options.signals_are(signal.SIG_IGN):
             if self.arguments.format != "csv":
                 files.write((self.output, getattr(self.rows, self.arguments.format)(record)))
                 if self.partial:
@@ -270,7 +252,7 @@ class _Batch:
         import restitute
         from restitute import plot
 
-        figure, content = self.arguments.figure, io.BytesIO()
+        figure = self.arguments.figure
         if not self.rows.solved.any():
             raise Refusal(f"{figure}: not drawn, no row was solved")
         word = self.given.get("material")
@@ -284,19 +266,12 @@ class _Batch:
         plot.grid(self._columns(), SimpleNamespace(ez=ez, ex=ex, flags=self.rows.flags()),
                   axes=self.axes, contours=self.arguments.contours, log=self.cases.log,
                   noise=2 * self.solution["tolerance"], ax=ax)
-        plot.save(ax, content, os.path.splitext(figure)[1][1:].lower())
-        files.write((figure, content.getvalue()))
+        files.write((figure, files.image(ax, figure)))
 
 
 def _impacts(rows, values, place, status):
-    """Impacts that give the same fields.
-
-    Returns
-    -------
-    list
-        The rows among them that can be described, and `restitute.scenes.Impacts`; or nothing. Why
-        others cannot goes into `status`.
-    """
+    """A list of those rows, which give the same fields, that can be described, and their
+    `restitute.scenes.Impacts`; or empty. Why others cannot goes into `status`."""
     def described(which):
         some = {name: value[which] if np.ndim(value) else value for name, value in values.items()}
         return problem.impacts(problem.keywords(some, place), place)
@@ -333,18 +308,6 @@ def _progress(total, done):
         return
     with tqdm(total=total, initial=done, unit=" rows", desc="restitute", dynamic_ncols=True) as bar:
         yield bar.update
-
-
-@contextmanager
-def _undisturbed():
-    """Signals do not end the process while the last files are written."""
-    before = {number: signal.signal(number, signal.SIG_IGN)
-              for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
-    try:
-        yield
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
 
 
 def _scheduler(arguments):

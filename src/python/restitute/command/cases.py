@@ -11,6 +11,10 @@ from restitute.command import options, problem, provenance
 from restitute.command.options import Refusal
 from restitute.errors import Error
 
+# What Python says of quotes.
+_QUOTES = {"unexpected end of data": "a quote is never closed",
+           "',' expected after '\"'": "text behind the quote that ends a cell; within a cell a "
+           "quote is written twice"}
 _DIGITS = b"0123456789+-.eE\n"
 RESULTS = ("ez", "ex", "contact_time", "max_indentation", "error_ez", "error_ex", "method",
            "status")
@@ -20,54 +24,68 @@ RESULTS = ("ez", "ex", "contact_time", "max_indentation", "error_ez", "error_ex"
 
 
 class Table:
-    """The cells of a CSV file as they came.
+    """The cells of a CSV file, - for standard input, as they came: `cells`, a sequence a column,
+    its `names`, and the `lines` on which rows begin. `content` is the file, `source` its name."""
 
-    Attributes
-    ----------
-    names : list of str
-    cells : list of sequences of str
-        A column each.
-    lines : list of int
-        On which line each row ends.
-    """
-
-    def __init__(self, content, source):
-        self.source, self._place, self._opened = source, 0, 0
-        text = _decoded(content, source)
+    def __init__(self, path, rows_needed=True):
+        self._place = self._begun = self._quotes = 0
+        self.content = self._read(path)
+        text = _decoded(self.content, self.source)
         rows: list = []
         self.lines: list = []
         try:
             for row in csv.reader(self._lines(text), strict=True):
+                if self._quotes % 2:
+                    raise self._refuse('a stray quote: within a cell it is written "", and the '
+                                       "cell stands in quotes")
                 if rows and len(row) != len(rows[0]):
                     raise self._refuse(f"{len(row)} cells, but the header has {len(rows[0])} "
                                        f"columns{_decimal_commas(row, len(rows[0]))}")
                 rows.append(row)
-                self.lines.append(self._place)
+                self.lines.append(self._begun)
                 if len(rows) == 1:
                     self._check_names(row)
+                self._begun = 0
         except csv.Error as why:
-            raise self._refuse("a quote is never closed" if self._opened else str(why)) from None
-        if self._opened:
-            raise self._refuse("a quote is never closed")
+            if "unexpected end" in str(why):
+                self._place = self._begun
+            raise self._refuse(_QUOTES.get(str(why), str(why))) from None
         if not rows:
-            raise Refusal(f"{source}: is empty; it must begin with a row of column names")
+            raise Refusal(f"{self.source}: is empty; it must begin with a row of column names")
         self.cells = list(zip(*rows))
         if re.search(r"[ \t](?:[,\r\n]|\Z)|(?:\A|[,\n])[ \t]", text):
             self.cells = [tuple(cell.strip(" \t") for cell in column) for column in self.cells]
         self.names = [column[0] for column in self.cells]
         self.cells, self.lines = [column[1:] for column in self.cells], self.lines[1:]
+        if rows_needed and not self.lines:
+            raise Refusal(f"{self.source}: has column names but no rows")
+
+    def _read(self, path):
+        self.source = "standard input" if path == "-" else path
+        try:
+            with open(0 if path == "-" else path, "rb", closefd=path != "-") as file:
+                return file.read()
+        except OSError as why:
+            raise Refusal(f"{path}: cannot be read: {why.strerror}") from None
+
+    def where(self, row):
+        """How a message names a row."""
+        return f"{self.source} line {self.lines[row]} (row {row + 1})"
 
     def _lines(self, text):
-        """Lines without comments and blank ones; neither is one within quotes."""
+        """Lines without comments and blank ones; neither is one within quotes, where a row that
+        has begun goes on."""
         for line in io.StringIO(text, newline="\n"):
             self._place += 1
-            if self._opened or not (line[0] == "#" or line.isspace()):
-                if line.count('"') % 2:
-                    self._opened = 0 if self._opened else self._place
+            if self._begun or not (line[0] == "#" or line.isspace()):
+                self._begun = self._begun or self._place
+                self._quotes += line.count('"')
                 yield line
 
     def _refuse(self, why):
-        return Refusal(f"{self.source} line {self._opened or self._place}: {why}")
+        lines = f"line {self._begun}" if self._begun == self._place else \
+            f"lines {self._begun} to {self._place}, which a quote joins"
+        return Refusal(f"{self.source} {lines}: {why}")
 
     def _check_names(self, names):
         if len(names) == 1:
@@ -99,37 +117,26 @@ def _decimal_commas(row, columns):
     return "; decimal commas? numbers need decimal points" if whole and len(row) > columns else ""
 
 
-def read_bytes(path):
-    """A file, or - for standard input."""
-    try:
-        if path == "-":
-            with open(0, "rb", closefd=False) as file:
-                return file.read()
-        with open(path, "rb") as file:
-            return file.read()
-    except OSError as why:
-        raise Refusal(f"{path}: cannot be read: {why.strerror}") from None
+def quoted(cells):
+    """Cells as CSV has them."""
+    text = "\n".join(cells)
+    if text.count("\n") < len(cells) and not re.search(r'[",\r# \t]', text):
+        return cells
+    return ['"' + cell.replace('"', '""') + '"' if re.search(r'[",\r\n]|\A[# \t]|[ \t]\Z', cell)
+            else cell for cell in cells]
+
+
+def csv_row(cells):
+    """A line of CSV."""
+    return ",".join(quoted(list(cells))) + "\n"
 
 
 # --------------------------------------------------------------------------------------- columns
 
 
 def numbers(texts, read):
-    """Numbers from different texts.
-
-    Parameters
-    ----------
-    texts : list of str
-    read : callable
-        read(text) gives a number or raises why not; asked where a text is no plain number.
-
-    Returns
-    -------
-    values : ndarray
-        nan where a text is refused.
-    reasons : dict of str to str
-        Why.
-    """
+    """Numbers from different texts, nan where one is refused, and why by its text. read(text) gives
+    a number or raises why not; it is asked where a text is no plain number."""
     other = "\n".join(texts).encode("utf-8", "surrogateescape").translate(None, _DIGITS)
     try:
         values = np.array([float(text) for text in texts] if not other else
@@ -180,34 +187,19 @@ def _word_values(word, name, texts):
 
 
 class Cases:
-    """Impacts, a row each.
+    """Impacts, a row each: `names` of columns as the file or --grid calls them and their `cells` as
+    they came; of a file its `table`. `known` is the column of a field or word; `good` says which
+    rows can be solved and `reasons` why others cannot. `log` are columns that --grid spaces evenly
+    in the logarithm."""
 
-    Attributes
-    ----------
-    names : list of str
-        Of the columns, as the file or --grid calls them.
-    cells : list of sequences of str
-        A column each, as they came.
-    source : str or None
-        What a file is called in messages; None: a grid.
-    known : dict of str to int
-        The column that gives a field or word, by its name.
-    good : ndarray of bool
-    reasons : dict of int to str
-        Why rows are not.
-    log : tuple of str
-        Columns that --grid spaces evenly in the logarithm.
-    """
-
-    def __init__(self, names, cells, source=None, lines=None, log=()):
-        self.names, self.cells, self.source, self.lines, self.log = names, cells, source, lines, log
+    def __init__(self, names, cells, table=None, log=()):
+        self.names, self.cells, self.table, self.log = names, cells, table, log
+        self.source = table and table.source
         self.rows, self.reasons, self.known, self._columns = len(cells[0]), {}, {}, {}
 
     def where(self, row):
         """How a message names a row."""
-        if self.source is None:
-            return f"grid row {row + 1}"
-        return f"{self.source} line {self.lines[row]} (row {row + 1})"
+        return self.table.where(row) if self.table else f"grid row {row + 1}"
 
     def place(self, name):
         """What the user calls a field here."""
@@ -216,20 +208,8 @@ class Cases:
         return problem.FIELDS[name].key if name in problem.FIELDS else name
 
     def check(self, given, option):
-        """Refuses columns that do not go together, with each other or with what options give.
-
-        Parameters
-        ----------
-        given : dict
-            Values by their names.
-        option : callable
-            option(name) is what the user calls an option.
-
-        Returns
-        -------
-        list of str
-            Columns that are passed through.
-        """
+        """Refuses columns that do not go together, with each other or with the values that options
+        give, which the user calls option(name). Returns the columns that are passed through."""
         source, other = self.source or "--grid", []
         for i, column in enumerate(self.names):
             field, word = problem.field_of_column(column), column.casefold()
@@ -263,7 +243,8 @@ class Cases:
         import restitute
 
         special = {"material": restitute.Material.elastic(1e6, density=1e3), "partner": "rigid",
-                   "rotation_blocked": False, "shore_a": 50.0, "poisson_ratio": 0.3}
+                   "rotation_blocked": False, "shore_a": 50.0, "poisson_ratio": 0.3,
+                   "temperature": 25.0}
         values = {name: special.get(name, 1.0) for name in self.known}
         for one, alternative in problem.EXCLUSIVE:
             if one in values:
@@ -303,14 +284,8 @@ class Cases:
         self.good[list(self.reasons)] = False
 
     def values(self, begin, end, given):
-        """Rows [begin, end) that are not refused, together with those that give the same fields.
-
-        Yields
-        ------
-        rows : ndarray of int
-        values : dict
-            Arrays by name, and what options give.
-        """
+        """Rows [begin, end) that are not refused, together with those that give the same fields:
+        yields rows, and arrays by name with what options give."""
         rows = begin + np.flatnonzero(self.good[begin:end])
         kind = np.zeros(len(rows), np.int64)
         sometimes = [name for name, (_, filled) in self._columns.items() if filled is not True]
@@ -346,11 +321,7 @@ class Cases:
 
 def read(path):
     """The cases of a file, and its record."""
-    source = "standard input" if path == "-" else path
-    content = read_bytes(path)
-    table = Table(content, source)
-    if not table.lines:
-        raise Refusal(f"{source}: has column names but no rows")
-    cases = Cases(table.names, table.cells, source, table.lines)
-    return cases, {"file": source, "rows": cases.rows,
-                   "fingerprint": provenance.fingerprint(content)}
+    table = Table(path)
+    cases = Cases(table.names, table.cells, table)
+    return cases, {"file": table.source, "rows": cases.rows,
+                   "fingerprint": provenance.fingerprint(table.content)}

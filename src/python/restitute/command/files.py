@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Outputs: whole files, under their final name only.
 
-    files.check(path, "--output")           # before the work: refuses what cannot be written
-    places = files.Places()                 # likewise: no input is an output
+    places = files.Places()                 # before the work: refuses what cannot be written
     places.read("--material", material)
     places.write("--output", path, ".meta.json")
-    places.check()
+    places.check()                          # and inputs that are outputs
     files.write((path, text), (files.beside(path, ".meta.json"), record))
 
 The rule for every output: symbolic links are followed and stay. A regular file, or none yet, is
@@ -17,6 +16,7 @@ refused. No path, or "-", is standard output.
 """
 import errno
 import fcntl
+import io
 import os
 import stat
 from contextlib import suppress
@@ -26,19 +26,9 @@ from restitute.command.options import Refusal, emit, write_all
 
 
 class Place:
-    """Where a path leads.
-
-    Attributes
-    ----------
-    target, folder : str
-        The name behind all symbolic links.
-    status : os.stat_result or None
-        Of what is there; None: nothing yet.
-    through : bool
-        It is written through.
-    descriptor : int or None
-        The open file of this process that the path names.
-    """
+    """Where a path leads: `target`, the name behind all symbolic links, and its `folder`; `status`
+    of what is there, None if nothing is yet; whether it is written `through`; the `descriptor` of
+    this process that it names, or None."""
 
     def __init__(self, path):
         self.target, self.through = path, False
@@ -79,6 +69,8 @@ class Place:
             return
         if not self.through:
             os.stat(self.folder)
+            if os.path.realpath(self.folder).startswith(("/proc", "/sys")):
+                raise OSError(errno.EACCES, "no file can be made in this folder")
         if self.status and not os.access(self.target, os.W_OK) or \
                 not self.through and not os.access(self.folder, os.W_OK | os.X_OK):
             raise _error(errno.EACCES)
@@ -153,15 +145,8 @@ def check(path, option):
 
 
 def lock(descriptor, name):
-    """Lock an open file as long as it is open.
-
-    Raises
-    ------
-    BlockingIOError
-        Another process has locked it.
-    FileNotFoundError
-        It no longer has this name.
-    """
+    """Lock an open file as long as it is open; or BlockingIOError, another process has locked it,
+    or FileNotFoundError, it no longer has this name."""
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError as problem:
@@ -244,20 +229,8 @@ class NewFile:
 
 
 def write(*outputs, between=None):
-    """Write outputs that belong together: all of them get their names, or none.
-
-    Parameters
-    ----------
-    outputs : tuples (path, content)
-        Content is str or bytes.
-    between : callable, optional
-        Called when all are written and none has its name.
-
-    Raises
-    ------
-    Refusal
-        What could not be written. Then nothing is left of any of them.
-    """
+    """Write outputs (path, str or bytes) that belong together: all of them get their names, or none
+    and a Refusal says why. `between()` is called when all are written and none has its name."""
     done, path = [], None
     try:
         for path, content in outputs:
@@ -276,6 +249,29 @@ def write(*outputs, between=None):
             file.drop()
 
 
+def image(axes, path):
+    """The figure of these axes, as bytes of the format that the path ends in."""
+    from restitute import plot
+
+    content = io.BytesIO()
+    plot.save(axes, content, os.path.splitext(path)[1][1:].lower())
+    return content.getvalue()
+
+
+def hdf5(datasets, units, group="/", **attributes):
+    """The bytes of an HDF5 file: arrays with their units."""
+    import h5py
+
+    content = io.BytesIO()
+    with h5py.File(content, "w") as file:
+        file.attrs.update(attributes)
+        for name, values in datasets.items():
+            data = file.require_group(group).create_dataset(name, data=values)
+            if name in units:
+                data.attrs["unit"] = units[name]
+    return content.getvalue()
+
+
 class Places:
     """What a run reads and writes: no input is an output, no two outputs are one."""
 
@@ -288,7 +284,9 @@ class Places:
             self._items.append(_Item(name, path, False))
 
     def write(self, name, path, *suffixes):
-        """An output, None is standard output, and what is written beside it."""
+        """An output, None is standard output, and what is written beside it; refused if it cannot
+        be written."""
+        check(path, name)
         self._items.append(_Item(name, path, True))
         if not is_stream(path):
             self._items += [_Item(f"{name} ({suffix})", beside(path, suffix), True)

@@ -41,10 +41,9 @@ def add(subparsers):
             ("dma", "CURVE.csv", "instead: storage and loss modulus over frequency"),
             ("name", "TEXT", "name in the material file; default that of the input"),
             ("output", "FILE.json", "the material file, and all numbers in FILE.json.meta.json",
-             options.ending(".json")),
-            ("figure", "FILE", "data, fit and residuals, .svg, .png or .pdf; needs matplotlib",
-             options.ending(".svg", ".png", ".pdf"))):
+             options.ending(".json"))):
         options.add(group, *row)
+    options.add_figure(group, "data, fit and residuals")
     group = parser.add_argument_group("The scene of all impacts")
     problem.add_fields(group, [name for name in problem.SCENE if name != "speed"])
     options.add(group, "partner", "rigid|same|FILE|NAME", "one of the two bodies deforms "
@@ -157,11 +156,9 @@ def _check_outputs(arguments, partners=()):
     places.read("--dma", arguments.dma)
     for word in partners:
         provenance.read_materials(places, {"partner": word})
-    if arguments.output:
-        files.check(arguments.output, "--output")
+    if arguments.output is not None:
         places.write("--output", arguments.output, ".meta.json")
-    if arguments.figure:
-        files.check(arguments.figure, "--figure")
+    if arguments.figure is not None:
         places.write("--figure", arguments.figure)
         options.need("matplotlib", "--figure")
     places.check()
@@ -276,12 +273,12 @@ def _write(arguments, rows, fit, density):
                   "correlation": fit.correlation.tolist(), "flags": fit.flags,
                   **{name: of(value) for name, value in numbers.items()}}
         settings = {"version": version(), "input": rows.source,
-                    "fingerprint": provenance.fingerprint(rows.content)}
+                    "fingerprint": provenance.fingerprint(rows.table.content)}
         record = provenance.record(arguments, settings, {}, fit=report)
         outputs = [(arguments.output, provenance.text(_material_file(rows, fit, density))),
                    (files.beside(arguments.output, ".meta.json"), provenance.text(record))]
     if arguments.figure:
-        outputs.append((arguments.figure, _figure(arguments, fit)))
+        outputs.append((arguments.figure, files.image(_figure(arguments, fit), arguments.figure)))
     files.write(*outputs, (None, f"{shown(rows.source)}: {fit.model}\n\n{fit}\n"))
 
 
@@ -306,13 +303,8 @@ def _material_file(rows, fit, density):
 
 
 def _figure(arguments, fit):
-    import io
-
     from restitute import plot, version
 
     note = ",  ".join(f"{name} = {value:.4g}" for name, value in zip(fit.names[:6], fit.value))
     axes = plot.sheet(2, f"{arguments.name[:100]}: {fit.model}", note, f"restitute {version()} fit")
-    plot.fit(fit, ax=axes)
-    image = io.BytesIO()
-    plot.save(axes, image, os.path.splitext(arguments.figure)[1][1:].lower())
-    return image.getvalue()
+    return plot.fit(fit, ax=axes)

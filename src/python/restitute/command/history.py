@@ -44,8 +44,7 @@ def add(subparsers):
                 options.ending(".csv", ".h5", ".hdf5", stream="; - is standard output"))
     options.add(group, "fields", "FILE", "with --method bem: pressure, traction and stick map at "
                 "nine times, as HDF5 (.h5, .hdf5)", options.ending(".h5", ".hdf5"))
-    options.add(group, "figure", "FILE", "a figure of it, .svg, .png or .pdf; needs matplotlib",
-                options.ending(".svg", ".png", ".pdf"))
+    options.add_figure(group, "a figure of it")
 
 
 def run(arguments):
@@ -76,14 +75,13 @@ def run(arguments):
     if "fields" in paths:
         outputs.append((paths["fields"], _hdf5(_FIELDS, done.fields._asdict())))
     if "figure" in paths:
-        outputs.append((paths["figure"], _figure(paths["figure"], done)))
+        outputs.append((paths["figure"], files.image(_figure(done), paths["figure"])))
     files.write(*outputs)
     return 0
 
 
 def _check(output, paths, method):
     from restitute import _library
-    from restitute.command import files
 
     if "events" in paths and not _library.available("cvode"):
         raise Refusal("--events needs the component cvode, which is not in this build (SUNDIALS; "
@@ -94,7 +92,6 @@ def _check(output, paths, method):
     if "fields" in paths and method != "bem":
         raise Refusal(f"--fields = {paths['fields']}: needs --method bem")
     for name, path in {"output": output, **paths}.items():
-        files.check(path, f"--{name}")
         if name == "figure" or path and path.lower().endswith(("h5", "hdf5")):
             options.need("matplotlib" if name == "figure" else "h5py", f"--{name} = {path}")
 
@@ -121,27 +118,18 @@ def _events_as_hdf5(events, names, si):
 
 
 def _hdf5(units, values, group="/"):
-    """An HDF5 file of arrays with their units."""
-    import io
-
-    import h5py
+    """An HDF5 file of arrays with their units, of fixed length."""
     import numpy as np
 
     import restitute
+    from restitute.command import files
 
-    image = io.BytesIO()
-    with h5py.File(image, "w") as file:
-        file.attrs["restitute_version"] = restitute.version()
-        for name, unit in units.items():
-            data = file.require_group(group).create_dataset(name, data=values[name])
-            data.attrs["unit"] = np.bytes_(unit)  # of fixed length, as C wrote it
-    return image.getvalue()
+    return files.hdf5({name: values[name] for name in units},
+                      {name: np.bytes_(unit) for name, unit in units.items()}, group,
+                      restitute_version=restitute.version())
 
 
-def _figure(path, done):
-    import io
-    import os
-
+def _figure(done):
     import restitute
     from restitute import plot
 
@@ -149,7 +137,4 @@ def _figure(path, done):
     beyond = "".join(f"; beyond a limit of the model: {text}" for *_, text in done.result.limits())
     axes = plot.sheet(3, "One impact", note=impacts.describe() + beyond,
                       origin=f"restitute {restitute.version()}, {done.result.method}")
-    plot.history(done, dimensionless=impacts.kind == "impact", ax=axes)
-    image = io.BytesIO()
-    plot.save(axes, image, os.path.splitext(path)[1][1:].lower())
-    return image.getvalue()
+    return plot.history(done, dimensionless=impacts.kind == "impact", ax=axes)

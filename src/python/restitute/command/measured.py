@@ -13,24 +13,12 @@ _NEUTRAL = {"radius2": problem.INFINITY, "mass2": problem.INFINITY, "density2": 
 
 
 class Rows:
-    """A table of measurements.
-
-    Attributes
-    ----------
-    numbers : dict of str to ndarray
-        The columns `known`, by their keywords; nan where a cell is empty.
-    called : dict of str to str
-        What the file calls a column, by its keyword or name.
-    rest : list of int
-        The other columns.
-    """
+    """A table of measurements: `numbers` of the columns `known`, by their keywords, nan where a
+    cell is empty; how the file has `called` them; and the `rest` of the columns, by number."""
 
     def __init__(self, path, known):
-        self.source = "standard input" if path == "-" else path
-        self.content = cases.read_bytes(path)
-        self.table, self.known = cases.Table(self.content, self.source), known
-        if not self.table.lines:
-            raise Refusal(f"{self.source}: has column names but no rows")
+        self.table, self.known = cases.Table(path), known
+        self.source = self.table.source
         self.numbers: dict[str, np.ndarray] = {}
         self.called: dict[str, str] = {}
         self.rest: list[int] = []
@@ -54,7 +42,7 @@ class Rows:
 
     def refuse(self, row, text):
         """A Refusal that names a row."""
-        return Refusal(f"{self.source} line {self.table.lines[row]} (row {row + 1}): {text}")
+        return Refusal(f"{self.table.where(row)}: {text}")
 
     def unknown(self, column, similar=""):
         """A Refusal of a column."""
@@ -82,7 +70,7 @@ def scene_of(rows, arguments):
              if name in problem.SCENE or name in words}
     names = [rows.table.names[i] for i in rows.rest]
     scene = cases.Cases(names, [rows.table.cells[i] for i in rows.rest] or [rows.table.lines],
-                        rows.source, rows.table.lines)
+                        rows.table)
     for i, column in enumerate(names):
         field = problem.field_of_column(column)
         name = field.name if field else column.casefold()

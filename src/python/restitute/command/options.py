@@ -10,6 +10,8 @@ import argparse
 import errno
 import os
 import re
+import signal
+from contextlib import contextmanager
 
 _DECIMAL = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 NUMBER = re.compile(_DECIMAL, re.A)
@@ -22,8 +24,8 @@ _SYNONYMS = {"mu": "friction", "diameter": "radius, half of it", "nu": "poisson-
              "rho": "density", "omega": "spin", "eta": "viscosity", "e": "youngs-modulus",
              "young": "youngs-modulus", "hardness": "shore-a", "shore": "shore-a", "v": "speed",
              "r": "radius", "m": "mass", "g": "modulus1", "shear-modulus": "modulus1",
-             "wall": "partner", "temperature": "time-shift, a factor of the relaxation times",
-             "file": "input", "plot": "figure", "theta": "angle"}
+             "wall": "partner", "celsius": "temperature", "file": "input", "plot": "figure",
+             "theta": "angle"}
 
 
 class Refusal(Exception):
@@ -78,13 +80,8 @@ def number_text(value):
 
 
 def number(text):
-    """A decimal number, "inf", or a fraction such as 7/6.
-
-    Raises
-    ------
-    ValueError
-        What it is instead, e.g. "is not a number (a decimal comma; write 1.5)".
-    """
+    """A decimal number, "inf", or a fraction such as 7/6; or a ValueError that says what it is
+    instead, e.g. "is not a number (a decimal comma; write 1.5)"."""
     if _INFINITE.fullmatch(text):
         return float(text)
     above, slash, below = text.partition("/")
@@ -112,15 +109,8 @@ def _misreading(text):
 
 
 def read_number(text, place, allowed, fits, quote=""):
-    """A number for which fits(number) holds.
-
-    Parameters
-    ----------
-    place : str
-        What the user calls it, e.g. "--psi" or "row 3: psi".
-    allowed : str
-        The range in words, e.g. "must be >= 0".
-    """
+    """A number for which fits(number) holds. A message calls it `place`, e.g. "row 3: psi", and its
+    range `allowed`, e.g. "must be >= 0"."""
     try:
         value = number(text)
     except ValueError as why:
@@ -212,6 +202,27 @@ def add_flag(group, name, help):
     """An option without an argument."""
     group.add_argument(f"--{name}", dest=name.replace("-", "_"), nargs=0, help=help, action=Once,
                        default=False)
+
+
+def add_figure(group, help):
+    """The option --figure."""
+    add(group, "figure", "FILE", f"{help}, .svg, .png or .pdf; needs matplotlib",
+        ending(".svg", ".png", ".pdf"))
+
+
+@contextmanager
+def signals_are(handler):
+    """Signals that end a process have this handler, where they are not ignored."""
+    before = {number: signal.getsignal(number)
+              for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
+    for number, old in before.items():
+        if old != signal.SIG_IGN:
+            signal.signal(number, handler)
+    try:
+        yield
+    finally:
+        for number, old in before.items():
+            signal.signal(number, old)
 
 
 class _Formatter(argparse.RawDescriptionHelpFormatter):

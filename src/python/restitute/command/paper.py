@@ -2,7 +2,6 @@
 """`restitute paper`: figures by name, each a batch of its own whose rows become a CSV, a figure and
 checks."""
 import argparse
-import io
 import os
 
 from restitute.command import options, problem
@@ -79,8 +78,7 @@ def _check(arguments, names, known, folder):
         if "temperature" not in names:
             raise Refusal("--material: only with the figure temperature, or all")
         problem.material_of(arguments.material)
-        places.read("--material", arguments.material)
-        places.read("prony_csv", provenance.series_of(arguments.material))
+        provenance.read_materials(places, {"material": arguments.material})
     elif names == ["temperature"]:
         raise Refusal("--material is missing: the figure temperature needs that of polyisobutylene")
     for name in names:
@@ -96,17 +94,8 @@ def _check(arguments, names, known, folder):
 
 
 class _Made:
-    """A figure whose impacts the module batch solves.
-
-    Attributes
-    ----------
-    arguments
-        Those of its batch.
-    cases : Cases
-        The impacts, with their numbers before them.
-    source : dict
-        What they are made of, for the record.
-    """
+    """A figure whose impacts the module batch solves: `arguments` of the batch, `cases` with their
+    numbers before them, and for the record the `source` that they are made of."""
 
     def __init__(self, name, arguments, path):
         from restitute.paper import Figure
@@ -150,7 +139,6 @@ class _Made:
         """Draw and check what the batch has solved."""
         from types import SimpleNamespace
 
-        from restitute import plot
         from restitute.command import batch, files
 
         rows, name = done.rows, self.figure.name
@@ -158,15 +146,12 @@ class _Made:
         self.figure.pairs = SimpleNamespace(ez=ez, ex=ex, contact_time=contact_time,
                                             flags=rows.flags(), status=rows.solved - 1)
         try:
-            checks, images = self.figure.checks(), [io.BytesIO() for _ in _DRAWN]
-            ax = self.figure.draw()
-            for image, ending in zip(images, _DRAWN):
-                plot.save(ax, image, ending[1:])
+            checks, ax = self.figure.checks(), self.figure.draw()
+            drawn = [(path, files.image(ax, path)) for path in map(self.path.__add__, _DRAWN)]
         except KeyboardInterrupt:
             say(f"interrupted while {name} is drawn; make it again")
             return batch.INTERRUPTED
-        files.write(*((self.path + ending, image.getvalue())
-                      for image, ending in zip(images, _DRAWN)))
+        files.write(*drawn)
         emit("\n  ".join([f"{name}: {self.figure.spec.title}", *map(str, checks)]) + "\n")
         failed = not all(check.good for check in checks)
         return max(done.report(), batch.FAILED if failed else batch.DONE)

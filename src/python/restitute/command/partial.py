@@ -13,14 +13,7 @@ from restitute.command.options import Refusal, write_all
 
 
 class Partial:
-    """The file of an unfinished run, locked.
-
-    Attributes
-    ----------
-    path : str
-    empty : bool
-        Nothing is done yet.
-    """
+    """The file of an unfinished run, `path`, locked. It is `empty` if nothing is done yet."""
 
     def __init__(self, output, resume):
         place = files.Place(output)

@@ -11,11 +11,11 @@ from itertools import combinations
 
 from restitute.command import options
 from restitute.command.options import Refusal, bounded, did_you_mean, number, read_number
-from restitute.errors import Error
+from restitute.errors import DomainError, Error
 
 INFINITY = float("inf")
 _SUFFIXES = {"1": "", "m": "_m", "kg/m^3": "_kg_m3", "kg": "_kg", "kg m^2": "_kg_m2", "m/s": "_m_s",
-             "deg": "_deg", "rad/s": "_rad_s", "Pa": "_pa", "Pa s": "_pa_s"}
+             "deg": "_deg", "rad/s": "_rad_s", "Pa": "_pa", "Pa s": "_pa_s", "C": "_c"}
 # name older-name | unit | range | what the numbers at its ends mean | help
 _TABLE = """
 chi | 1 | [1/3, 1000] | | (1-nu)/(2-nu) (1 + m R^2/J); default 7/6, a solid incompressible sphere
@@ -34,6 +34,8 @@ viscosity | Pa s | (0, inf) | | eta of the dashpot, Pa s
 poisson_ratio poisson | 1 | [0, 0.5] | | Poisson's ratio of that solid; default 0.5
 time_shift | 1 | (0, inf) | | a_T: relaxation times and viscosity are multiplied by it, as by a
     change of temperature; default 1
+temperature | C | [-273.15, 1e4] | | instead of --time-shift: degrees Celsius, for a --material
+    whose shift of times with temperature is known; default that of its constants
 radius radius1 | m | (0, inf) | | radius of the sphere, m; required
 density density1 | kg/m^3 | (0, inf) | | density of the sphere, kg/m^3; this or --mass; default that
     of its material
@@ -57,17 +59,8 @@ _WORDS = {"(0, inf)": "finite and > 0", "[0, inf)": "finite and >= 0", "(0, inf]
 
 
 class Field:
-    """A number of an impact.
-
-    Attributes
-    ----------
-    name, key, option : str
-        `speed`, `speed_m_s`, `--speed`.
-    older : list of str
-        Names that are accepted too.
-    unit, allowed, help : str
-        `allowed` is the range in words.
-    """
+    """A number of an impact: `name`, `key` and `option` as in speed, speed_m_s and --speed, `older`
+    names that are accepted too, its unit, and the range in words, `allowed`."""
 
     def __init__(self, row):
         cells = re.split(r" ?\| ?", row, maxsplit=4)
@@ -99,7 +92,7 @@ def _rows(table):
 FIELDS = {field.name: field for field in map(Field, _rows(_TABLE))}
 DIMENSIONLESS = ("chi", "psi", "delta1", "gamma", "delta2")
 SOLID = ("modulus1", "youngs_modulus", "shore_a", "modulus2", "viscosity", "poisson_ratio",
-         "time_shift")
+         "time_shift", "temperature")
 SI = tuple(name for name in FIELDS if name not in DIMENSIONLESS)
 SCENE = tuple(name for name in SI if name not in SOLID)
 WORDS = ("material", "partner", "rotation_blocked")  # columns that are no numbers
@@ -237,8 +230,8 @@ def place_of_options(arguments):
 def in_words_of(place, text):
     """A message of the package with the user's names of the fields in its first part."""
     fields, colon, rest = text.partition(":")
-    return re.sub(rf"(?<!\ba )\b({'|'.join(FIELDS)})\b|^(material|partner)\b",
-                  lambda word: place(word[0]), fields) + colon + rest
+    return re.sub(rf"(?<!\ba )(?<!/)\b({'|'.join(FIELDS)})\b(?!\.\w)"
+                  r"|^(material|partner)\b(?!\.)", lambda word: place(word[0]), fields) + colon + rest
 
 
 def impacts(keywords, place):
@@ -255,33 +248,24 @@ def impacts(keywords, place):
 
 
 _MODULI = ("modulus1", "youngs_modulus", "shore_a")
-EXCLUSIVE = (("density", "mass"), ("density2", "mass2"), *combinations(_MODULI, 2))
+EXCLUSIVE = (("density", "mass"), ("density2", "mass2"), ("temperature", "time_shift"),
+             *combinations(_MODULI, 2))
 
 
 def keywords(values, place):
-    """The keywords of `restitute.pair` for given values.
-
-    Parameters
-    ----------
-    values : dict
-        Numbers or arrays by the names of FIELDS, and those of WORDS; only what is given.
-    place : callable
-        place(name) is what the user calls a field.
-
-    Raises
-    ------
-    Refusal
-        What is missing, or does not go together.
-    """
+    """The keywords of `restitute.pair` for given values, numbers or arrays by the names of FIELDS,
+    and those of WORDS; or a Refusal of what is missing or does not go together, where place(name)
+    is what the user calls a field."""
     given = dict(values)
     for one, other in EXCLUSIVE:
         if one in given and other in given:
             raise Refusal(f"{place(one)} and {place(other)} are both given: one determines the "
                           "other")
     partner = given.get("partner", "rigid")
-    if "time_shift" in given and isinstance(partner, str) and partner not in ("rigid", "same"):
+    shift = next((name for name in SOLID[-2:] if name in given), None)
+    if shift and isinstance(partner, str) and partner not in ("rigid", "same"):
         raise Refusal(f"{place('partner')} = {partner[:64]}: the material must be a file without "
-                      f"{place('time_shift')}, with its times shifted")
+                      f"{place(shift)}, with its times shifted")
     if not given:
         raise Refusal("no impact is described: give psi, delta1, gamma or a material, radius, "
                       "speed; see restitute pair --help")
@@ -302,7 +286,9 @@ def _complete(given, place):
 
     Against a rigid partner the sphere is what is of the material, unless its density is given.
     """
-    moduli = [name for name in SOLID[:-1] if name in given]
+    moduli = [name for name in SOLID[:-2] if name in given]
+    if "temperature" in given and "material" not in given:
+        raise Refusal(f"{place('temperature')}: needs {place('material')}")
     if "material" in given and moduli:
         raise Refusal(f"a material file and {place(moduli[0])} are both given: use one")
     for name in ("radius", "speed", "friction"):
@@ -311,13 +297,17 @@ def _complete(given, place):
     if "material" not in given:
         given["material"] = _solid({name: given.pop(name) for name in moduli}, place)
     elif not given.keys() & {"density", "mass"}:
-        one = isinstance(given["material"], str)
-        densities = [material_of(name).density for name in ([given["material"]] if one else
-                                                            given["material"])]
-        if not all(density > 0 for density in densities):
+        given["density"] = _each(lambda name: material_of(name).density, given["material"])
+        if not (given["density"] > 0 if isinstance(given["density"], float) else
+                (given["density"] > 0).all()):
             raise Refusal(f"{place('density')} or {place('mass')} is missing: must be > 0 (the "
                           "material gives no density)")
-        given["density"] = densities[0] if one else densities
+    if "temperature" in given:
+        try:
+            given["material"] = _each(material_of, given["material"], given.pop("temperature"))
+        except DomainError as why:
+            text = str(why).replace("Material.shifted(a_T)", place("time_shift"))
+            raise Refusal(in_words_of(place, text)) from None
 
 
 def _missing(name, place):
@@ -365,8 +355,22 @@ def read_material(text, place):
 
 
 @cache
-def material_of(text):
+def material_of(text, temperature=None):
     """The material of a file or of a name, read once."""
     import restitute
 
-    return restitute.material(text)
+    if isinstance(text, restitute.Material):  # an example, of Cases.check
+        return text
+    made = restitute.material(text, temperature=temperature)
+    made.name += "" if temperature is None else f", shifted to {temperature:g} C"
+    return made
+
+
+def _each(function, *values):
+    """function(value, ...), or an array of them if values are arrays."""
+    import numpy as np
+
+    if not any(map(np.ndim, values)):
+        return function(*values)
+    values = np.broadcast_arrays(*(np.asarray(value, object) for value in values))
+    return np.array([function(*some) for some in zip(*values)])

@@ -68,15 +68,9 @@ def of_material(name):
 
 
 def settings(arguments, inputs, **defaults):
-    """What determines the numbers of a result.
-
-    Parameters
-    ----------
-    inputs : dict
-        "input" and what else belongs to it; "material" and "partner" instead of the options' own.
-    defaults
-        Of the options that say how impacts are solved, where the subcommand has its own.
-    """
+    """What determines the numbers of a result: `inputs` are "input" and what else belongs to it,
+    with "material" and "partner" instead of the options' own; `defaults` those of the subcommand
+    for how impacts are solved."""
     import restitute
 
     given = problem.values_of(arguments)

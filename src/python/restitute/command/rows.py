@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What comes out of a batch: a row for each case, its cells as they came, then the result."""
-import io
 import json
 import re
 from collections import Counter
@@ -8,8 +7,8 @@ from operator import itemgetter
 
 import numpy as np
 
-from restitute.command import options, problem, provenance
-from restitute.command.cases import RESULTS, Table, numbers, read_bytes
+from restitute.command import files, options, problem, provenance
+from restitute.command.cases import RESULTS, Table, csv_row, numbers, quoted
 from restitute.command.options import Refusal
 
 _INFINITY = float("inf")
@@ -20,16 +19,8 @@ _RANGES = {"ez": (0, 1, "must be in [0, 1]"), "ex": (-1, 1, "must be in [-1, 1]"
 
 
 class Rows:
-    """Results of cases.
-
-    Attributes
-    ----------
-    values : ndarray, shape (6, rows)
-        The numbers of RESULTS; nan where a row is not solved.
-    solved : ndarray of bool
-    status : ndarray of str
-        Remarks and the limits of the model that are passed, or why the row failed.
-    """
+    """Results of cases: `values`, the six numbers of RESULTS a row, nan where it is not `solved`,
+    and its `status`: remarks and the limits of the model that are passed, or why it failed."""
 
     def __init__(self, cases, method):
         self.cases, self.method = cases, method
@@ -69,30 +60,20 @@ class Rows:
 
     def header(self):
         """The first line."""
-        return ",".join(_quoted([*self.cases.names, *RESULTS])) + "\n"
+        return csv_row([*self.cases.names, *RESULTS])
 
     def lines(self, begin, end):
         """Rows [begin, end) as they are written."""
-        columns = [_quoted(cells[begin:end]) for cells in self.cases.cells]
+        columns = [quoted(cells[begin:end]) for cells in self.cases.cells]
         columns += [_texts(value[begin:end]) for value in self.values]
         columns.append([self.method if good else "" for good in self.solved[begin:end].tolist()])
-        columns.append(_quoted(self.status[begin:end].tolist()))
+        columns.append(quoted(self.status[begin:end].tolist()))
         return "\n".join(map(",".join, zip(*columns))) + "\n"
 
     def read(self, path):
-        """Take rows that were written before.
-
-        Returns
-        -------
-        int
-            How many there are.
-
-        Raises
-        ------
-        Refusal
-            They are not what this run writes; the text names line, column and value.
-        """
-        table, wanted = Table(read_bytes(path), path), [*self.cases.names, *RESULTS]
+        """Take rows that were written before; returns how many there are. If they are not what this
+        run writes, a Refusal names line, column and value."""
+        table, wanted = Table(path, rows_needed=False), [*self.cases.names, *RESULTS]
         if len(table.names) != len(wanted):
             raise Refusal(f"{path}: has {len(table.names)} columns: must be {len(wanted)}")
         for i, (name, must) in enumerate(zip(table.names, wanted)):
@@ -102,7 +83,7 @@ class Rows:
         row, why = min([self._foreign(table.cells[:first], done),
                         *self._take(table.cells[first:], done)], key=itemgetter(0))
         if row < done:
-            raise Refusal(f"{path} line {table.lines[row]} (row {row + 1}): {why}")
+            raise Refusal(f"{table.where(row)}: {why}")
         return done
 
     def _foreign(self, columns, done):
@@ -162,19 +143,14 @@ class Rows:
 
     def hdf5(self, record):
         """The bytes of an HDF5 file: a dataset for each column, the record as an attribute."""
-        h5py, content = options.need("h5py", "--output"), io.BytesIO()
+        h5py = options.need("h5py", "--output")
         columns = {name: self.cases.column(i) for i, name in enumerate(self.cases.names)}
         columns.update(zip(_RANGES, self.values), status=self.status)
-        with h5py.File(content, "w") as file:
-            file.attrs["record"] = provenance.text(record)
-            for name, values in columns.items():
-                if values.dtype == object:
-                    values = np.array([value.encode("utf-8", "surrogateescape")
-                                       for value in values], h5py.string_dtype())
-                data = file.create_dataset(name.replace("/", " per "), data=values)
-                if name in record["units"]:
-                    data.attrs["unit"] = record["units"][name]
-        return content.getvalue()
+        text = h5py.string_dtype()
+        return files.hdf5({
+            name.replace("/", " per "): values if values.dtype != object else
+            np.array([value.encode("utf-8", "surrogateescape") for value in values], text)
+            for name, values in columns.items()}, record["units"], record=provenance.text(record))
 
 
 def _split(status):
@@ -193,12 +169,3 @@ def _texts(values):
 
 def _json(value):
     return json.dumps(provenance.of_number(value) if isinstance(value, float) else value)
-
-
-def _quoted(cells):
-    """Cells as CSV has them."""
-    text = "\n".join(cells)
-    if text.count("\n") < len(cells) and not re.search(r'[",\r# \t]', text):
-        return cells
-    return ['"' + cell.replace('"', '""') + '"' if re.search(r'[",\r\n]|\A[# \t]|[ \t]\Z', cell)
-            else cell for cell in cells]

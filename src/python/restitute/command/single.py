@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`restitute pair`: the restitution pair of one impact; of many by the module batch."""
 import signal
-from contextlib import contextmanager
 
 from restitute.command import options, problem
 from restitute.command.options import Refusal, number_text, say, shown
+from restitute.errors import Error
 
 _EPILOG = """One impact:
   restitute pair --chi 7/6 --psi 2 --delta1 1 --gamma 1
@@ -44,9 +44,7 @@ def add(subparsers):
                 "above, or material=FILE:FILE:...: all impacts of the grid, for example "
                 "speed=0.1:10:9:log,angle=5:85:9")
     options.add(group, "output", "FILE", "write here and not to standard output")
-    options.add(group, "figure", "FILE", "with --grid, or --input with one or two columns that "
-                "vary: a figure of it, .svg, .png or .pdf; needs matplotlib",
-                options.ending(".svg", ".png", ".pdf"))
+    options.add_figure(group, "with --grid, or --input with one or two columns that vary: a figure")
     options.add_flag(group, "contours",
                      "with --figure: contours over both axes, the last one to the right")
     options.add(group, "threads", "N", "with --input and --grid: number of threads, 1 to 1024; "
@@ -70,7 +68,6 @@ def run(arguments):
         if name in arguments.given:
             value = getattr(arguments, name)
             raise Refusal(f"--{name}{'' if value is True else f' = {value}'}: needs {needs}")
-    files.check(arguments.output, "--output")
     import restitute
 
     result = solve(arguments, {"output": arguments.output}, restitute.pair, energies=True)
@@ -86,30 +83,9 @@ def run(arguments):
     return 0
 
 
-@contextmanager
-def _ended_by_signals():
-    """Signals end the process at once, as nothing is being written: an impact may take long."""
-    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
-    for number, handler in before.items():
-        if handler != signal.SIG_IGN:
-            signal.signal(number, signal.SIG_DFL)
-    try:
-        yield
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
-
-
 def solve(arguments, outputs, function, **more):
     """What `restitute.pair` or `restitute.history` makes of the impact that the options describe.
-
-    Remarks go to standard error.
-
-    Parameters
-    ----------
-    outputs : dict of str to path
-        By the names of their options. None of them may be an input, or another one.
-    """
+    None of the outputs, by the names of their options, may be an input or another one."""
     import warnings
 
     from restitute.command import files, provenance
@@ -118,16 +94,17 @@ def solve(arguments, outputs, function, **more):
     keywords = problem.keywords(values, place)
     problem.impacts(keywords, place)
     places = files.Places()
-    for name in ("material", "partner"):
-        if values.get(name) not in (None, "rigid", "same"):
-            places.read(f"--{name}", values[name])
-            places.read("prony_csv", provenance.series_of(values[name]))
+    provenance.read_materials(places, values)
     for option, path in outputs.items():
         places.write(f"--{option}", path, ".meta.json")
     places.check()
-    with warnings.catch_warnings(), _ended_by_signals():
+    # Nothing is being written, and an impact may take long: signals end the process at once.
+    with warnings.catch_warnings(), options.signals_are(signal.SIG_DFL):
         warnings.simplefilter("ignore")  # the message says the same of one impact
-        made = function(**keywords, **{**problem.solution(arguments), **more})
+        try:
+            made = function(**keywords, **{**problem.solution(arguments), **more})
+        except Error as why:
+            raise Refusal(problem.in_words_of(place, str(why))) from None
     message = getattr(made, "result", made).message()
     if message:
         say(f"remark: {message}")
@@ -226,8 +203,7 @@ def _numerics(impact, result):
 
 def _csv(arguments, impact, result, record):
     """The options given become the input columns."""
-    import csv
-    import io
+    from restitute.command.cases import csv_row
 
     row = {problem.FIELDS[name].key if name in problem.FIELDS else name:
            "1" if value is True else value if isinstance(value, str) else number_text(value)
@@ -235,10 +211,7 @@ def _csv(arguments, impact, result, record):
     row.update((name, number_text(getattr(result, name))) for name in (
         "ez", "ex", "contact_time", "max_indentation", "error_ez", "error_ex"))
     row.update(method=result.method, status=result.words()[()])
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerows([row.keys(), row.values()])
-    return text.getvalue()
+    return csv_row(row) + csv_row(row.values())
 
 
 def _json(arguments, impact, result, record):

@@ -3,7 +3,8 @@
 import re
 
 from restitute.command import options, problem
-from restitute.command.options import Refusal, bounded, emit, ending, number_text, say, shown
+from restitute.command.options import Refusal, bounded, emit, number_text, say, shown
+from restitute.errors import Error
 
 DONE, FAILED = 0, 1
 _BUILD = """Example:
@@ -46,10 +47,9 @@ def add(subparsers):
             ("max-impacts", "N", "limit of impacts for refinement; default 12000",
              bounded(1, 1e15, whole=True)),
             ("time-limit", "SECONDS", "limit of time for refinement, s; default 20, inf: no limit",
-             bounded(1e-3, problem.INFINITY)),
-            ("figure", "FILE.svg|png|pdf", "draw ez and ex too, shaded beyond the limits of the "
-             "model; needs matplotlib", ending(".svg", ".png", ".pdf"))):
+             bounded(1e-3, problem.INFINITY))):
         options.add(group, name, metavar, help, read)
+    options.add_figure(group, "ez and ex, shaded beyond the limits of the model")
     info = actions.add_parser("info", usage="restitute table info FILE [OPTION...]", epilog=_INFO)
     info.add_argument("file", nargs="?", metavar="FILE", help="the table")
     options.add(info, "format", "text|json", "default text", options.one_of("text", "json"))
@@ -98,7 +98,7 @@ def run(arguments):
 def _build(arguments):
     import restitute
 
-    _check_paths(arguments)
+    _check_output(arguments)
     values, place = problem.values_of(arguments), problem.place_of_options(arguments)
     values.pop("speed", None)
     if not values:
@@ -114,8 +114,9 @@ def _build(arguments):
         settings["speeds"] = arguments.speed
     try:
         table = restitute.Table.build(**keywords, **settings, threads=arguments.threads or 0)
-    except restitute.DomainError as why:
-        raise Refusal(re.sub("^speeds", place("speed"), str(why))) from None
+    except Error as why:
+        text = re.sub("^speeds", "speed", str(why))
+        raise Refusal(problem.in_words_of(place, text)) from None
     table.save(arguments.output)
     info = table.info
     emit(f"{shown(scene)}\n{shown(arguments.output)}: errors {info.error_ez:.2g} (ez), "
@@ -126,19 +127,17 @@ def _build(arguments):
     return FAILED if max(info.error_ez, info.error_ex) > info.tolerance else DONE
 
 
-def _check_paths(arguments):
+def _check_output(arguments):
     from restitute.command import files
 
-    output, figure = arguments.output, arguments.figure
+    output, speed = arguments.output, arguments.speed
     if output is None:
         raise Refusal("--output is missing: the table's file")
     if files.is_stream(output):
         raise Refusal(f"--output = {output}: a table needs a file")
-    files.check(output, "--output")
-    if figure:
-        files.check(figure, "--figure")
+    if arguments.figure:
         options.need("matplotlib", "--figure")
-        if arguments.speed and arguments.speed[0] >= arguments.speed[1]:
+        if speed and speed[0] >= speed[1]:
             raise Refusal("--figure: a table of one speed has no curves")
 
 
@@ -148,26 +147,21 @@ def _check_places(arguments, values):
     places = files.Places()
     provenance.read_materials(places, values)
     places.write("--output", arguments.output)
-    if arguments.figure:
+    if arguments.figure is not None:
         places.write("--figure", arguments.figure)
     places.check()
 
 
 def _draw(table, path):
-    import io
-    import os
-
     from restitute import plot
     from restitute.command import files
 
-    info, image = table.info, io.BytesIO()
+    info = table.info
     axes = plot.sheet(2, "Restitution of one contact", origin=f"restitute {info.version}, table, "
                       f"errors {info.error_ez:.1e}, {info.error_ex:.1e}",
                       note=f"friction {info.friction:g}, effective radius {info.radius:g} m, mass "
                       f"{info.mass:g} kg; shaded: beyond the limits of the model")
-    plot.table(table, ax=axes)
-    plot.save(axes, image, os.path.splitext(path)[1][1:].lower())
-    files.write((path, image.getvalue()))
+    files.write((path, files.image(plot.table(table, ax=axes), path)))
 
 
 # ------------------------------------------------------------------------------------------- info
@@ -239,7 +233,6 @@ def _check_query(arguments):
     places.read("--input", arguments.input)
     places.write("--output", arguments.output)
     places.check()
-    files.check(arguments.output, "--output")
 
 
 def _query_one(arguments, table):
@@ -259,15 +252,11 @@ def _query_one(arguments, table):
 
 
 def _query_many(arguments, table):
-    import csv
-    import io
-
     import numpy as np
 
     from restitute.command import cases, files
 
-    source = "standard input" if arguments.input == "-" else arguments.input
-    rows = cases.Table(cases.read_bytes(arguments.input), source)
+    rows = cases.Table(arguments.input, rows_needed=False)
     status = np.full(len(rows.lines), "", object)
     speeds = [_column(rows, name, status) for name in _SPEEDS]
     _check_query(arguments)
@@ -276,11 +265,8 @@ def _query_many(arguments, table):
     results = np.full((2, len(good)), "", object)
     for texts, values in zip(results, table.pair(normal, sliding, check=False)):
         texts[good] = [number_text(value) for value in values.tolist()]
-    content = io.StringIO()
-    writer = csv.writer(content, lineterminator="\n")
-    writer.writerow([*rows.names, "ez", "ex", "status"])
-    writer.writerows(zip(*rows.cells, *results, status))
-    files.write((arguments.output, content.getvalue()))
+    files.write((arguments.output, "".join(map(cases.csv_row, (
+        [*rows.names, "ez", "ex", "status"], *zip(*rows.cells, *results, status))))))
     flags, outside = table.flags(normal, sliding), np.count_nonzero(table.beyond(normal))
     _warn(flags)
     if outside:
