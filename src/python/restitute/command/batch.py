@@ -68,8 +68,8 @@ def _check_options(arguments):
 
 
 class _Batch:
-    """A run: how many rows are `done` and written, and the Partial where they are; None: a
-    stream."""
+    """A run: how many rows are `done` and written; `sink`, descriptor and name of where they go as
+    they come; the Partial, or None for a stream."""
 
     def __init__(self, arguments, made):
         from restitute.solving import options as checked
@@ -77,7 +77,7 @@ class _Batch:
         self.arguments, self.output = arguments, arguments.output
         self.done = self.failures = 0
         self.partial: Any = None
-        self.stream: Any = None
+        self.sink: Any = None
         self.given = problem.values_of(arguments)
         self.solution = problem.solution(arguments, method="euler", tolerance=1e-3)
         self.limits = checked(**self.solution)
@@ -103,10 +103,7 @@ class _Batch:
     def _check_places(self, materials):
         places = files.Places()
         places.read("--input", self.arguments.input)
-        provenance.read_materials(places, self.given)
-        for text in [text for texts in materials.values() for text in texts]:
-            places.read("material", text)
-            places.read("prony_csv", provenance.series_of(text))
+        provenance.read_materials(places, {**self.given, **materials})
         places.write("--output", self.output, ".meta.json", ".partial", ".partial.json")
         if self.arguments.figure:
             places.write("--figure", self.arguments.figure)
@@ -116,8 +113,8 @@ class _Batch:
         """Where rows go that need not wait for the others; takes the rows that are there."""
         if files.is_stream(self.output):
             if self.arguments.format == "csv":
-                self.stream = 1 if files.is_standard(self.output) else \
-                    files.Place(self.output).open_through()
+                self.sink = (1, "standard output") if files.is_standard(self.output) else \
+                    (files.Place(self.output).open_through(), f"{self.output}:")
                 self._send(self.rows.header())
             return
         partial = Partial(self.output, self.arguments.resume)
@@ -135,27 +132,18 @@ class _Batch:
                 partial.remove()
             partial.leave()
             raise
-        self.partial = partial
+        self.partial, self.sink = partial, (partial.descriptor, f"{partial.path}:")
 
     def _send(self, text):
-        if self.partial:
-            self.partial.append(text)
-        elif self.stream == 1:
-            options.emit(text)
-        elif self.stream is not None:
-            try:
-                options.write_all(self.stream, text)
-            except BrokenPipeError:
-                raise
-            except OSError as why:
-                raise files.not_written(self.output, why) from None
+        if self.sink:
+            options.write_all(self.sink[0], text, self.sink[1])
 
     def leave(self):
         """Close what is open."""
         if self.partial:
             self.partial.leave()
-        if self.stream not in (None, 1):
-            os.close(self.stream)
+        elif self.sink and self.sink[0] != 1:
+            os.close(self.sink[0])
 
     def solve(self, executor):
         """All rows, piece by piece: a row for each thread, and as many more as take about 0.4 s

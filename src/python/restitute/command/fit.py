@@ -154,8 +154,7 @@ def _check_outputs(arguments, partners=()):
     places = files.Places()
     places.read("--input", arguments.input)
     places.read("--dma", arguments.dma)
-    for word in partners:
-        provenance.read_materials(places, {"partner": word})
+    provenance.read_materials(places, {"partner": partners})
     if arguments.output is not None:
         places.write("--output", arguments.output, ".meta.json")
     if arguments.figure is not None:

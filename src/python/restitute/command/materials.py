@@ -7,9 +7,10 @@ _EPILOG = """Examples:
   restitute materials
   restitute materials polyisobutylene --figure polyisobutylene.svg
   restitute pair --material polyisobutylene --radius 0.005 --friction 0.3 --speed 0.1
-At another temperature, by way of a material file:
+At another temperature, and the material file of it:
+  restitute pair --material polyisobutylene --temperature 40 --radius 0.005 --friction 0.3 \\
+      --speed 0.1
   restitute materials polyisobutylene --temperature 40 --format json >pib40.json
-  restitute pair --material pib40.json --radius 0.005 --friction 0.3 --speed 0.1
 
 The moduli are shear moduli: at once, and after infinite time. The window is that of the times in
 which the material was measured: an impact that takes longer or shorter is flagged. Temperatures
@@ -30,9 +31,8 @@ def add(subparsers):
                 "this temperature, where their shift is known", options.bounded(-273.15, 1e4))
     options.add(parser, "format", "text|json", "of one material: json is a material file; default "
                 "text", options.one_of("text", "json"))
-    options.add(parser, "figure", "FILE", "of one material: relaxation modulus, storage and loss "
-                "modulus, with the window shaded, .svg, .png or .pdf; needs matplotlib",
-                options.ending(".svg", ".png", ".pdf"))
+    options.add_figure(parser, "of one material: relaxation modulus, storage and loss modulus, "
+                       "with the window shaded")
 
 
 def run(arguments):
@@ -55,7 +55,6 @@ def run(arguments):
     if arguments.figure:
         places = files.Places()
         provenance.read_materials(places, {"material": word})
-        files.check(arguments.figure, "--figure")
         places.write("--figure", arguments.figure)
         places.check()
         options.need("matplotlib", "--figure")
@@ -64,7 +63,8 @@ def run(arguments):
         material.source += f"; relaxation times at {arguments.temperature:g} C"
     text = _file(material) if arguments.format == "json" else _page(material)
     if arguments.figure:
-        files.write((arguments.figure, _figure(material, arguments.figure)), (None, text))
+        files.write((arguments.figure, files.image(_figure(material), arguments.figure)),
+                    (None, text))
     else:
         emit(text)
     return 0
@@ -107,11 +107,8 @@ def _given(text, unit):
     return "not given" if text == "-" else f"{text} {unit}"
 
 
-def _figure(material, path):
+def _figure(material):
     """G(t), G'(omega) and G''(omega) with the window of times."""
-    import io
-    import os
-
     import numpy as np
 
     from restitute import plot
@@ -131,9 +128,7 @@ def _figure(material, path):
     soft = material.relaxation_modulus(time[-1])
     ax[0].set_ylim(bottom=max(soft, 1e-5 * material.relaxation_modulus(time[0])) / 2)
     legend(ax[1])
-    image = io.BytesIO()
-    plot.save(ax, image, os.path.splitext(path)[1][1:].lower())
-    return image.getvalue()
+    return ax
 
 
 def _moduli(series):

@@ -52,22 +52,22 @@ def say(text):
         pass
 
 
-def write_all(descriptor, text):
-    """Write text or bytes to an open descriptor."""
+def write_all(descriptor, text, name=None):
+    """Write text or bytes to an open descriptor; with a name, failures are Refusals."""
     rest = memoryview(text if isinstance(text, bytes) else text.encode("utf-8", "surrogateescape"))
-    while rest:
-        rest = rest[os.write(descriptor, rest):]
+    try:
+        while rest:
+            rest = rest[os.write(descriptor, rest):]
+    except OSError as problem:
+        if name is None or isinstance(problem, BrokenPipeError):
+            raise
+        why = os.strerror(problem.errno or errno.EIO)
+        raise Refusal(f"{name} cannot be written: {why}") from None
 
 
 def emit(text):
     """Text or bytes to standard output."""
-    try:
-        write_all(1, text)
-    except BrokenPipeError:
-        raise
-    except OSError as problem:
-        why = os.strerror(problem.errno or errno.EIO)
-        raise Refusal(f"standard output cannot be written: {why}") from None
+    write_all(1, text, "standard output")
 
 
 def number_text(value):

@@ -54,7 +54,7 @@ class Partial:
     def begin(self, settings, header):
         """Settings and header of a file in which nothing is done."""
         files.write((self.settings_path, provenance.text(settings)))
-        self.append(header)
+        write_all(self.descriptor, header, f"{self.path}:")
 
     def check_settings(self, settings):
         """Refuses to go on with other settings."""
@@ -92,13 +92,6 @@ class Partial:
             if quotes % 2 == 0:
                 lines, length = lines + 1, at
         return lines, length
-
-    def append(self, text):
-        """Write rows."""
-        try:
-            write_all(self.descriptor, text)
-        except OSError as problem:
-            raise files.not_written(self.path, problem) from None
 
     def commit(self, rows):
         """Give it the final name, if it has as many rows and a header."""

@@ -230,8 +230,8 @@ def place_of_options(arguments):
 def in_words_of(place, text):
     """A message of the package with the user's names of the fields in its first part."""
     fields, colon, rest = text.partition(":")
-    return re.sub(rf"(?<!\ba )(?<!/)\b({'|'.join(FIELDS)})\b(?!\.\w)"
-                  r"|^(material|partner)\b(?!\.)", lambda word: place(word[0]), fields) + colon + rest
+    names = rf"(?<!\ba )(?<!/)\b({'|'.join(FIELDS)})\b(?!\.\w)|^(material|partner)\b(?!\.)"
+    return re.sub(names, lambda word: place(word[0]), fields) + colon + rest
 
 
 def impacts(keywords, place):

@@ -44,11 +44,14 @@ def series_of(path):
 
 
 def read_materials(places, values):
-    """Tell `files.Places` which material files the values of options read."""
+    """Tell `files.Places` which material files are read, by an option or by all cells of a
+    column."""
     for name in ("material", "partner"):
-        if values.get(name) not in (None, "rigid", "same"):
-            places.read(f"--{name}", values[name])
-            places.read("prony_csv", series_of(values[name]))
+        given = values.get(name, ())
+        for text in [given] if isinstance(given, str) else given:
+            if text not in ("rigid", "same"):
+                places.read(f"--{name}" if text is given else name, text)
+                places.read("prony_csv", series_of(text))
 
 
 def of_material(name):

@@ -288,8 +288,8 @@ def _column(rows, name, status):
     cells = rows.cells[rows.names.index(column)]
     values, reasons = cases.numbers(cells, options.number)
     for i in np.flatnonzero(~((values >= low) & (values <= high)) & (status == "")):
-        why = reasons.get(cells[i], f"is out of its range, [{low:g}, {high:g}]")
-        status[i] = f'{column} = "{cells[i][:64]}" {why}'
+        why = f"{reasons[cells[i]]}: must be in" if cells[i] in reasons else "is out of its range,"
+        status[i] = f'{column} = "{cells[i][:64]}" {why} [{low:g}, {high:g}]'
     return values
 
 
