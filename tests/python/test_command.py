@@ -255,6 +255,13 @@ def test_a_temperature_without_a_known_shift_is_refused(run, words, why):
     assert why in refused(run, "pair", *BALL, *words)
 
 
+def test_ranges_are_shown_to_the_last_digit(run):
+    assert "must be a whole number in [0, 4294967295]" in refused(run, "paper", "fig4", "--seed",
+                                                                  "-1")
+    assert "did you mean polyisobutylene?" in refused(run, "paper", "temperature", "--material",
+                                                      "polyisobutylen")
+
+
 @pytest.mark.parametrize(("words", "why"), [
     (["--friction", "-1"], "--friction = -1: must be >= 0 (inf: no slip)"),
     (["--friction", "1e-40"], "--friction = 1e-40: must be 0 or >= 1e-30 (inf: no slip)")])

@@ -123,7 +123,8 @@ def read_number(text, place, allowed, fits, quote=""):
 def bounded(low, high, whole=False):
     """A reader of numbers in [low, high]."""
     def read(text, place):
-        allowed = f"must be {'a whole number' if whole else 'a number'} in [{low:g}, {high:g}]"
+        top = f"{high:g}" if float(f"{high:g}") == high else number_text(high)
+        allowed = f"must be {'a whole number' if whole else 'a number'} in [{low:g}, {top}]"
         value = read_number(text, place, allowed, quote='"',
                             fits=lambda x: low <= x <= high and not (whole and x % 1))
         return int(value) if whole else value

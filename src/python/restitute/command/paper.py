@@ -28,7 +28,8 @@ def add(subparsers):
                         "temperature, tangent, friction, or all of them")
     problem.add_solution(parser)
     group = parser.add_argument_group("Input and output")
-    options.add(group, "material", "FILE|NAME", "polyisobutylene, for the figure temperature")
+    options.add(group, "material", "FILE|NAME", "polyisobutylene, for the figure temperature",
+                problem.read_material)
     options.add(group, "seed", "N", "the impacts that are drawn, 0 to 4294967295; default 2017",
                 options.bounded(0, 2**32 - 1, whole=True))
     options.add(group, "output", "FOLDER", "where the files go; made if there is none")
