@@ -372,5 +372,5 @@ def _each(function, *values):
 
     if not any(map(np.ndim, values)):
         return function(*values)
-    values = np.broadcast_arrays(*(np.asarray(value, object) for value in values))
-    return np.array([function(*some) for some in zip(*values)])
+    columns = np.broadcast_arrays(*(np.asarray(value, object) for value in values))
+    return np.array([function(*some) for some in zip(*columns)])
