@@ -228,7 +228,12 @@ def test_numbers_and_words_of_a_scene():
     np.testing.assert_allclose(numbers.psi, [0, 2 / 3 / 0.3], rtol=1e-14)
     np.testing.assert_allclose(numbers.gamma, 1 / 3, rtol=1e-14)
     assert Impacts(psi=1, delta1=2, gamma=4).numbers().delta2 == 4
-    assert "one of them of rubber" in impacts.describe() and "0 to 45 degrees" in impacts.describe()
+    assert impacts.describe().startswith("sphere of rubber, R = 1 mm, on a rigid wall: ")
+    assert "0 to 45 degrees" in impacts.describe()
+    steel = {**BALL, "density": 7800}
+    assert "rigid sphere, R = 1 mm, on a wall of rubber" in restitute.describe(RUBBER, **steel)
+    unknown = restitute.Material.elastic(1e6, name="rubber")
+    assert "one of them of rubber" in restitute.describe(unknown, **steel)
     assert restitute.describe(RUBBER, **BALL, partner="same", radius2=[1, np.inf]) == (
         "sphere of rubber, R = 1 mm, on a sphere or a wall of the same: 0.01 m/s, 0 degrees, "
         "friction 0.3")

@@ -309,8 +309,8 @@ def _is_of_material(records, solids):
     """Whether spheres have the density of the solid, within a tenth; None: unknown, or some do."""
     density = np.array([m.density for m in solids])[records["material"].astype(int)]
     own = records["mass1"] / (4 / 3 * np.pi * records["radius1"]**3)
-    same = np.abs(own / np.where(density > 0, density, np.nan) - 1) <= 0.1
-    return None if (density <= 0).any() or same.any() != same.all() else bool(same.all())
+    same = np.abs(own - density) <= 0.1 * density
+    return bool(same.all()) if (density > 0).all() and same.any() == same.all() else None
 
 
 def describe(impacts: Any = None, **keywords: Any) -> str:

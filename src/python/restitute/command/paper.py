@@ -82,16 +82,16 @@ def _check(arguments, names, known, folder):
         provenance.read_materials(places, {"material": arguments.material})
     elif names == ["temperature"]:
         raise Refusal("--material is missing: the figure temperature needs that of polyisobutylene")
-    for name in names:
-        for ending in (*_ROWS, *_DRAWN):
-            places.write("--output", os.path.join(folder, name + ending))
-    places.check()
     try:
         if not os.path.isdir(folder):
             os.mkdir(folder)
     except OSError:
         raise Refusal(f"--output = {folder[:200]}: must be a folder, or a new one in a folder that "
                       "there is") from None
+    for name in names:
+        for ending in (*_ROWS, *_DRAWN):
+            places.write("--output", os.path.join(folder, name + ending))
+    places.check()
 
 
 class _Made:
