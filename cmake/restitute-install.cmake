@@ -124,6 +124,9 @@ endforeach()
 file(WRITE "${PROJECT_BINARY_DIR}/cmake/copyright" "${copyright}")
 install(FILES "${PROJECT_BINARY_DIR}/cmake/copyright" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT copyright)
 
+install(FILES "${PROJECT_SOURCE_DIR}/tests/data/reference_impacts.csv"
+              "${PROJECT_SOURCE_DIR}/tests/data/reference_impacts.LICENSE" DESTINATION "${CMAKE_INSTALL_DATADIR}/restitute")
+
 configure_package_config_file(cmake/restitute-config.cmake.in cmake/restitute-config.cmake
                               INSTALL_DESTINATION "${package_dir}" NO_SET_AND_CHECK_MACRO)
 # Before 1.0 a minor version may change the interface.

@@ -48,7 +48,7 @@ mypy)
 ruff)
     tools
     exec tools/bin/ruff check --quiet --output-format concise --no-cache --config "$settings" \
-        "$SOURCE_DIR/src/python" "$SOURCE_DIR/tests/python" \
+        "$SOURCE_DIR/src/python" "$SOURCE_DIR/tests/python" "$SOURCE_DIR/tests/reference" \
         $(find "$SOURCE_DIR/examples" -name '*.py' -path '*/python/*')
     ;;
 wheel)

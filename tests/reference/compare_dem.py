@@ -11,6 +11,7 @@ import csv
 from collections import defaultdict
 
 import numpy as np
+
 import reference_set
 from reference_set import part
 
@@ -50,9 +51,9 @@ class Comparison:
         at = [np.nanmedian(np.abs(self.off_ex[self.impacts["slip"] == slip])) for slip in SLIP]
         gains = self.gain > GAIN
         largest = f"{100 * self.gain.max():.2g} %" if gains.any() else "-"
-        return [f"{self.ended}", *(f"{np.quantile(np.abs(self.off_ez), q):.2g}" for q in (0.5, 0.99)),
-                *(f"{value:.2g}" for value in at), f"{np.nanquantile(np.abs(self.off_ex), 0.9):.2g}",
-                f"{np.nanmax(np.abs(self.off_ex)):.2g}", f"{gains.sum()}", largest]
+        ez, ex = np.abs(self.off_ez), np.abs(self.off_ex)
+        numbers = (*np.quantile(ez, (0.5, 0.99)), *at, np.nanquantile(ex, 0.9), np.nanmax(ex))
+        return [f"{self.ended}", *(f"{value:.2g}" for value in numbers), f"{gains.sum()}", largest]
 
 
 HEADER = ("code", "model", "impacts", "e_z: median", "99 %", "e_x, stick first", "slip, then stick",
@@ -74,6 +75,7 @@ def figure(comparisons, path):
     """Errors of e_x over the angle, a panel a model."""
     import matplotlib
     from matplotlib.figure import Figure
+
     from restitute.plot import save
     from restitute.plot.sheet import STYLE
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the scripts that run DEM codes share: rows of reference_impacts.csv as two bodies in a DEM
-code, and dampings that give a row's e_z. Without NumPy, which the Python of LAMMPS need not have."""
+code, and dampings that give a row's e_z. Without NumPy, which the Python of LAMMPS may lack."""
 import copy
 import csv
 import math

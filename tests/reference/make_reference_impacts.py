@@ -15,9 +15,10 @@ from collections import Counter
 from types import SimpleNamespace
 
 import numpy as np
+
 import reference_set
-from restitute import impact
 from reference_set import TERMS, part
+from restitute import impact
 
 SEED = 40
 AGREE = 1e-8
@@ -27,7 +28,8 @@ AGREE = 1e-8
 CVODE = ({"method": "cvode", "elements": 1024}, {"method": "cvode-adams", "elements": 1024},
          {"method": "cvode", "time_limit": 10})
 UNLIMITED = {"time_limit": np.inf, "max_work": np.inf}
-KINDS = {"elastic": 0.1, "standard solid": 0.25, "Kelvin-Voigt": 0.15, "Maxwell": 0.1, "Prony": 0.4}
+KINDS = {"elastic": 0.1, "standard solid": 0.25, "Kelvin-Voigt": 0.15, "Maxwell": 0.1,
+         "Prony": 0.4}
 PARTNERS = {"rigid wall": 0.25, "wall": 0.15, "equal sphere": 0.3, "unlike sphere": 0.3}
 # Of sync; solids with terms of very different times need too many panels with more.
 SYNC_POINTS = (768, 384)
@@ -48,7 +50,7 @@ def log_uniform(random, low, high):
 
 
 def draw_solid(random, kind):
-    """G_inf, eta_inf, [(tau, G), ...] in units of G_r and T: G_r is G_inf, or sum G if that is 0."""
+    """G_inf, eta_inf, [(tau, G), ...] in units of G_r and T; G_r is G_inf or, if 0, sum G."""
     if kind == "elastic":
         return 1.0, 0.0, []
     if kind == "standard solid":
@@ -98,7 +100,8 @@ def draw(random):
     row["tangential_speed_m_s"] = rounded(speed * np.tan(angle))
     spins = random.random(2) < (0.4, 0.5)
     whole = speed / np.cos(angle)
-    turns = random.uniform(-2, 2, 2) * whole * (spins[0], spins.all() and partner.endswith("sphere"))
+    spins[1] &= spins[0] and partner.endswith("sphere")
+    turns = random.uniform(-2, 2, 2) * whole * spins
     row["spin1_rad_s"] = rounded(turns[0] / row["radius1_m"]) + 0.0
     row["spin2_rad_s"] = rounded(turns[1] / row["radius2_m"]) + 0.0
     g_inf, eta, terms = draw_solid(random, kind)

@@ -59,10 +59,10 @@ def model_of(name, impact, beta_of):
         return f"hooke/history {k_n!r} NULL {gamma!r} NULL {impact.friction!r} 1"
     normal, damping, tangential = GRANULAR[name]
     shear = row["G_r_Pa"]
-    values = {"ez": impact.ez, "friction": impact.friction, "youngs": impact.youngs, "nu": impact.nu,
+    values = {"ez": impact.ez, "friction": impact.friction,
               "eta": beta_of(impact.ez) / (row["T_s"] * row["a_el_m"]),
               "k_t": 8 * shear / (2 - impact.nu) * row["a_el_m"]}  # Mindlin's at the depth d0
-    return HERTZ.format(youngs=repr(impact.youngs), normal=normal.format(**values), nu=repr(impact.nu),
+    return HERTZ.format(youngs=impact.youngs, normal=normal.format(**values), nu=impact.nu,
                         tangential=tangential.format(**values), damping=damping)
 
 

@@ -54,7 +54,8 @@ def scene(impact, steps):
         set atom {tag} omegay {impact.spins[i]!r}
         """
     if impact.wall:
-        lines += "fix wall all wall/gran model hertz tangential history primitive type 1 zplane 0.0\n"
+        lines += ("fix wall all wall/gran model hertz tangential history "
+                  "primitive type 1 zplane 0.0\n")
     lines += f"""
         fix move all nve/sphere
         dump d all custom {steps} {impact.number}.txt id z vx vz omegay
@@ -85,7 +86,8 @@ def main():
         # A damped impact of Hertz takes longer than an elastic one: at e_z = 0.05 twice as long
         text = "".join(scene(i, dem.STEPS * (2 if i.ez > 0.5 else 6)) for i in impacts)
         Path(place, "scenes.in").write_text(text)
-        subprocess.run([asked.program, "-log", "none", "-screen", "none", "-in", "scenes.in"], cwd=place, check=True)
+        subprocess.run([asked.program, "-log", "none", "-screen", "none", "-in", "scenes.in"],
+                       cwd=place, check=True)
         out = csv.writer(file, lineterminator="\n")
         out.writerow(["impact", "code", "model", "ez", "ex", "time"])
         for impact in impacts:
