@@ -5,9 +5,9 @@ import sys
 import warnings
 
 import numpy as np
-
 import reference_set
 from reference_set import part
+
 from restitute import impact
 
 ROWS = 2000

@@ -11,7 +11,6 @@ import csv
 from collections import defaultdict
 
 import numpy as np
-
 import reference_set
 from reference_set import part
 
@@ -39,7 +38,7 @@ class Comparison:
     def __init__(self, impacts, results):
         number, ez, ex = results
         ended = np.isfinite(ez)
-        self.impacts = part(impacts, number[ended].astype(int) - 1)
+        self.impacts = part(impacts, np.searchsorted(impacts["impact"], number[ended]))
         self.off_ez = ez[ended] - self.impacts["ez"]
         self.off_ex = ex[ended] - self.impacts["ex"]
         still = self.impacts["slip"] == "none"

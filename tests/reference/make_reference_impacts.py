@@ -15,9 +15,9 @@ from collections import Counter
 from types import SimpleNamespace
 
 import numpy as np
-
 import reference_set
 from reference_set import TERMS, part
+
 from restitute import impact
 
 SEED = 40
@@ -195,7 +195,7 @@ def examine(set_):
     pairs = precise(set_)
     why = reasons(pairs)
     kept = np.flatnonzero(why == "")
-    some, pairs = part(set_, kept), precise(part(set_, kept))
+    some, pairs = part(set_, kept), SimpleNamespace(**part(vars(pairs), kept))
     second = confirm(some, pairs)
     agrees = np.maximum(*differences(pairs, *second[:2])) <= AGREE
     why[kept[~agrees]] = np.where(np.isnan(second[0][~agrees]), "cvode refuses", "cvode differs")
