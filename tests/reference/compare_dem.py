@@ -66,8 +66,8 @@ def table(comparisons):
 
 
 # Colour, marker and size; told apart in grey print too.
-LOOK = {"stick first": ("#440154", "o", 3), "gross slip, then stick": ("#21918c", "x", 3),
-        "gross slip": ("#b5b5b5", ".", 3)}
+LOOK = {"stick first": ("#440154", "o", 2), "gross slip, then stick": ("#21918c", "x", 2),
+        "gross slip": ("#b5b5b5", ".", 2)}
 
 
 def figure(comparisons, path):
