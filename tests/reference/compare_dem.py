@@ -14,7 +14,7 @@ import numpy as np
 import reference_set
 from reference_set import part
 
-SLIP = ("stick first", "gross slip, then stick", "gross slip")
+SLIP = ("stick first", "gross slip then stick", "gross slip")
 DRAWN = ("coeff_restitution, mindlin", "coeff_restitution, mindlin_rescale/force",
          "hertz, tangential history", "hooke/history, pairs", "hooke/history, walls",
          "contact law of restitute")
@@ -66,7 +66,7 @@ def table(comparisons):
 
 
 # Colour, marker and size; told apart in grey print too.
-LOOK = {"stick first": ("#440154", "o", 2), "gross slip, then stick": ("#21918c", "x", 2),
+LOOK = {"stick first": ("#440154", "o", 2), "gross slip then stick": ("#21918c", "x", 2),
         "gross slip": ("#b5b5b5", ".", 2)}
 
 

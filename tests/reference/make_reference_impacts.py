@@ -37,7 +37,7 @@ HEAD_ON, SIGNIFICANT, BATCH = 0.04, 6, 50
 PAIRS = ("ez", "ex", "error_ez", "error_ex", "contact_time", "max_indentation", "radius_ratio",
          "flags", "status")
 NO_REBOUND = 1  # RESTITUTE_NO_REBOUND
-SLIP = ("none", "stick first", "gross slip, then stick", "gross slip")
+SLIP = ("none", "stick first", "gross slip then stick", "gross slip")
 
 
 def rounded(value):
