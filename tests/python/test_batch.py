@@ -203,11 +203,13 @@ def test_different_texts_are_read_as_options_are():
 
 
 @pytest.mark.parametrize(("text", "why"), [
-    ('psi\n1"2\n', "line 2: a quote is never closed"), ('psi\n"1"2\n', "line 2: "),
+    ('psi\n1"2\n', "line 2: a stray quote"), ('psi\n"1"2\n', "line 2: "),
+    ('psi\n1\n"2\n3\n', "line 3: a quote is never closed"),
     ("psi,delta1\n\n1\n", "line 3: 1 cells"), ('psi,a\n1,"\n\n"\n2\n', "line 5: 1 cells")])
-def test_a_bad_table_is_refused_with_its_line(text, why):
+def test_a_bad_table_is_refused_with_its_line(tmp_path, text, why):
+    (tmp_path / "t.csv").write_text(text)
     with pytest.raises(options.Refusal) as refusal:
-        cases.Table(text.encode(), "t.csv")
+        cases.Table(str(tmp_path / "t.csv"))
     assert f"t.csv {why}" in str(refusal.value)
 
 
