@@ -451,13 +451,18 @@ static void an_interrupted_build_ends_at_once(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_interrupted_build_ends_at_once),
-        cmocka_unit_test(threads_give_the_same_bits), cmocka_unit_test(a_child_goes_on_with_one_thread),
-        cmocka_unit_test(the_material_may_go),        cmocka_unit_test(narrow_ranges),
-        cmocka_unit_test(hardly_any_partial_slip),    cmocka_unit_test(data_makes_the_same_table),
-        cmocka_unit_test(rebound_begins_at_a_seam),   cmocka_unit_test(limits_travel),
-        cmocka_unit_test(many_tables_at_once),        cmocka_unit_test(few_impacts_give_an_honest_table),
-        cmocka_unit_test(a_limit_of_time_is_kept),    cmocka_unit_test(refusals)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(an_interrupted_build_ends_at_once),
+                                       cmocka_unit_test(threads_give_the_same_bits),
+                                       cmocka_unit_test(a_child_goes_on_with_one_thread),
+                                       cmocka_unit_test(the_material_may_go),
+                                       cmocka_unit_test(narrow_ranges),
+                                       cmocka_unit_test(hardly_any_partial_slip),
+                                       cmocka_unit_test(data_makes_the_same_table),
+                                       cmocka_unit_test(rebound_begins_at_a_seam),
+                                       cmocka_unit_test(limits_travel),
+                                       cmocka_unit_test(many_tables_at_once),
+                                       cmocka_unit_test(few_impacts_give_an_honest_table),
+                                       cmocka_unit_test(a_limit_of_time_is_kept),
+                                       cmocka_unit_test(refusals)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
