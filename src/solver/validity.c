@@ -3,9 +3,8 @@
 #include "solver/validity.h"
 
 #include <math.h>
-#include <stdio.h>
 
-#include "base/report.h"
+#include "base/window.h"
 
 const char *restitute_flag_text(int flag)
 {
@@ -73,7 +72,7 @@ static const double soft_contact_error = 0.18;
 void rst_name_limits(const restitute_options *options, const restitute_scene *scene, const restitute_result *result,
                      restitute_error *error)
 {
-    double shortest, longest;
+    char text[64];
     const struct {
         const char *name;
         double value, limit;
@@ -87,11 +86,11 @@ void rst_name_limits(const restitute_options *options, const restitute_scene *sc
         if (!(result->flags & limits[i].flag)) continue;
         char cost[40] = "";
         if (limits[i].flag == RESTITUTE_FLAG_LARGE_CONTACT)
-            snprintf(cost, sizeof cost, " (ez is known to about +-%.1g)", fmin(soft_contact_error * limits[i].value, 1));
+            rst_print(cost, sizeof cost, " (ez is known to about +-%.1g)",
+                      fmin(soft_contact_error * limits[i].value, 1));
         rst_remark(error, "%s = %.3g exceeds the limit %g%s", limits[i].name, limits[i].value, limits[i].limit, cost);
     }
     if (!(result->flags & RESTITUTE_FLAG_UNMEASURED)) return;
-    restitute_material_window(scene->material, &shortest, &longest, NULL);
-    rst_remark(error, "contact time %.3g s is outside the window %.3g to %.3g s in which the material was measured",
-               result->contact_time, shortest, longest);
+    rst_print(text, sizeof text, "contact time %.3g s is outside", result->contact_time);
+    rst_remark_window(text, scene->material, error);
 }

@@ -4,6 +4,8 @@
 
 #include <stdlib.h>
 
+#include "base/window.h"
+
 void restitute_table_options_init_sized(restitute_table_options *options, size_t size)
 {
     restitute_options core;
@@ -188,11 +190,12 @@ static void contact_times(const struct rst_builder *b, double times[2])
 
 static void remark_window(const restitute_material *material, const double times[2], restitute_error *error)
 {
+    char text[80];
     double shortest, longest;
     restitute_material_window(material, &shortest, &longest, NULL);
-    if (times[1] > 0 && (times[0] < shortest || times[1] > longest))
-        rst_remark(error, "contact times from %.3g to %.3g s: the material was measured in the window %.3g to %.3g s",
-                   times[0], times[1], shortest, longest);
+    if (!(times[1] > 0) || (times[0] >= shortest && times[1] <= longest)) return;
+    rst_print(text, sizeof text, "contact times from %.3g to %.3g s leave", times[0], times[1]);
+    rst_remark_window(text, material, error);
 }
 
 static int judge(const restitute_table_data *d, double taken, double time_limit, restitute_error *error)

@@ -9,7 +9,15 @@ import numpy as np
 import pytest
 
 import restitute
-from restitute import DomainError, Material, ModelLimitWarning, material, material_names, pair
+from restitute import (
+    DomainError,
+    FileError,
+    Material,
+    ModelLimitWarning,
+    material,
+    material_names,
+    pair,
+)
 
 SOURCE = os.path.join(os.path.dirname(__file__), "..", "..")
 MINUTE, HOUR, DAY, MONTH, YEAR = 60, 3600, 86400, 30 * 86400, 365 * 86400
@@ -127,6 +135,38 @@ def test_the_window_shifts_with_temperature_and_survives():
         material("polyisobutylene", temperature=-176)
 
 
+def test_the_own_window_of_two_bodies_survives():
+    one, other = Material.elastic(1e6, window=(1e-2, 1)), Material.elastic(2e6, window=(1e-3, 1))
+    both = Material.effective(one, other, window=(1e-9, 1e3))
+    assert pickle.loads(pickle.dumps(both)) == both and both.window == (1e-9, 1e3)
+    assert both.shifted(10).window == pytest.approx((1e-8, 1e4), rel=1e-12)
+    shared = Material.effective(one, other)
+    assert pickle.loads(pickle.dumps(shared)).window == (1e-2, 1)
+    assert shared.shifted(10).window == pytest.approx((0.1, 10), rel=1e-12)
+
+
+def test_two_windows_without_a_common_time_are_said_to_be_so():
+    ice, pvb = material("ice"), material("pvb")
+    with pytest.warns(ModelLimitWarning, match="windows in which the two materials were measured: "
+                                               "they have no time in common$"):
+        pair(Material.effective(ice, pvb), radius=0.01, density=917, speed=0.02)
+
+
+def test_a_shifted_solid_has_no_temperature():
+    assert np.isnan(material("polyisobutylene").shifted(0.1).temperature)
+    with pytest.raises(DomainError, match="no shift of times with temperature"):
+        material("polyisobutylene").shifted(0.1).at_temperature(25)
+
+
+def test_a_file_is_read_without_the_folder_of_materials(tmp_path, monkeypatch):
+    file = tmp_path / "jelly.json"
+    file.write_text('{"name": "Jelly", "model": "elastic", "modulus_pa": 9, "poisson_ratio": 0.5}')
+    monkeypatch.setenv("RESTITUTE_MATERIALS", str(tmp_path / "nowhere"))
+    assert material(file).name == "Jelly"
+    with pytest.raises(FileError, match="nowhere: the folder of materials cannot be read: No such"):
+        material("jelly")
+
+
 def test_contact_times_outside_of_the_window_are_warned_of():
     tape = material("vhb4910")
     with pytest.warns(ModelLimitWarning, match=r"^contact time 0.\d+ s is outside the window 0.607 "
@@ -149,7 +189,7 @@ def test_files_of_the_folder_that_the_environment_names_come_first(tmp_path, mon
 @pytest.mark.component("table")
 def test_a_table_whose_contact_times_leave_the_window_is_warned_of():
     ball = dict(radius=0.002, density=1000, friction=0.3, speeds=(0.001, 0.01), tolerance=1e-3)
-    with pytest.warns(ModelLimitWarning, match=r"^contact times from 0.00\d+ to 0.0\d+ s: the "
-                                               "material was measured in the window 0.607 to 61.2"):
+    with pytest.warns(ModelLimitWarning, match=r"^contact times from 0.00\d+ to 0.0\d+ s "
+                                               "leave the window 0.607 to 61.2 s in which"):
         restitute.Table.build("vhb4910", **ball)
     restitute.Table.build("silicone", **ball)

@@ -92,6 +92,9 @@ def test_other_sizes_and_frictions_are_served(rubber, table):
     assert pair.ez == pytest.approx(solved.ez, abs=1.01e-4)
     assert pair.ex == pytest.approx(solved.ex, abs=1.01e-4)
     assert pair.flags is None
+    given = table.contact(radius=0.0007, density=1200, friction=table.info.friction)
+    assert table.pair(0.1, 0.05, table.contact(radius=0.0007, density=1200)).ex == table.pair(
+        0.1, 0.05, given).ex
     with pytest.warns(restitute.ModelLimitWarning, match="1 of 1 normal speeds"):
         table.pair(0.5, 0, contact)
     with pytest.raises(restitute.DomainError, match="^material: must be"):

@@ -161,8 +161,10 @@ class Pairs(Columns):
             used = set(self.impacts.records["material"][hit].tolist())
             windows = {self.impacts.solids[i].window for i in used}
         if len(windows) == 1:
-            where = "the window {:.3g} to {:.3g} s in which the material was measured".format(
-                *windows.pop())
+            shortest, longest = windows.pop()
+            where = (f"the window {shortest:.3g} to {longest:.3g} s in which the material was "
+                     "measured" if shortest <= longest else "the windows in which the two "
+                     "materials were measured: they have no time in common")
         if not self.shape:
             return f"contact time {time[0]:.3g} s is outside {where}"
         return (f"{time.size} of {hit.size} impacts: contact times from {time.min():.3g} to "

@@ -251,19 +251,21 @@ class Material:
 
     def shifted(self, time_shift: float) -> Material:
         """The same solid with all relaxation times, viscosities and the window times `time_shift`,
-        the a_T of a temperature.
+        the a_T of a temperature. `temperature` and `wlf` are unknown then.
 
         >>> Material.maxwell(1e6, 50.0).shifted(10).series.relaxation_time
         array([0.0005])
         """
         if number("time_shift", time_shift) == 1:
             return self
+        about: dict = {**self._about(), "temperature": math.nan, "wlf": None}
         if self.parts:
-            parts = (part.shifted(time_shift) for part in self.parts)
-            return Material.effective(*parts, **self._about())
+            one, other = self.parts
+            about.update(self._own_window(time_shift))
+            return Material.effective(one.shifted(time_shift), other.shifted(time_shift), **about)
         made = ffi.new("restitute_material **")
         call(_library.core.restitute_material_shifted, self._handle, time_shift, made)
-        return Material(made[0], **self._about())
+        return Material(made[0], **about)
 
     def at_temperature(self, temperature: float) -> Material:
         """The same solid at another temperature (degrees Celsius), by `wlf`.
@@ -293,6 +295,13 @@ class Material:
         names = ("name", "source", "model", "density", "temperature", "wlf")
         return {name: getattr(self, name) for name in names}
 
+    def _own_window(self, factor: float = 1) -> dict[str, Any]:
+        """The window of two bodies times `factor`, if it is not just the time that theirs share."""
+        starts, ends = zip(*(part.window for part in self.parts or ()))
+        if self.window == (max(starts), min(ends)):
+            return {}
+        return {"window": tuple(factor * end for end in self.window)}
+
     def _key(self) -> tuple:
         s = self.series
         return (s.relaxation_time.tobytes(), s.modulus.tobytes(), *s[2:], self.poisson_ratio,
@@ -306,7 +315,8 @@ class Material:
 
     def __reduce__(self):
         if self.parts:
-            return partial(Material.effective, **self._about()), self.parts
+            make = partial(Material.effective, **self._about(), **self._own_window())
+            return make, self.parts
         make = partial(Material.prony, window=self.window, **self._about())
         return make, (*self.series, self.poisson_ratio)
 
@@ -340,7 +350,11 @@ def material_names() -> list[str]:
     >>> "polyisobutylene" in material_names()
     True
     """
-    return sorted(name[:-5] for name in os.listdir(_folder()) if name.endswith(".json"))
+    try:
+        return sorted(name[:-5] for name in os.listdir(_folder()) if name.endswith(".json"))
+    except OSError as why:
+        raise errors.FileError(f"{_folder()}: the folder of materials cannot be read: "
+                               f"{why.strerror} (RESTITUTE_MATERIALS names another)") from None
 
 
 def material(name: str | os.PathLike, temperature: float | None = None) -> Material:
@@ -368,12 +382,12 @@ def material(name: str | os.PathLike, temperature: float | None = None) -> Mater
     """
     if not isinstance(name, (str, os.PathLike)):
         raise errors.DomainError(f"material = {errors.shown(name)}: must be a name or a file")
-    word, names = os.fspath(name), material_names()
+    word = os.fspath(name)
     if word.endswith((".json", ".csv")):
         found = Material.read(word)
-    elif word in names:
+    elif word in material_names():
         found = Material.read(os.path.join(_folder(), f"{word}.json"))
     else:
         raise errors.DomainError(f"material = {word!r}: is no .json or .csv file and no name"
-                                 f"{errors.suggestion(word, names)}")
+                                 f"{errors.suggestion(word, material_names())}")
     return found if temperature is None else found.at_temperature(temperature)

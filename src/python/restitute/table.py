@@ -193,7 +193,7 @@ class Table:
         touch_gap : float
             For `collide`: how far apart, over the radii, bodies still touch; in [0, 1].
         **contact
-            As in `pair`.
+            As in `pair`; without friction that of the table.
 
         Raises
         ------
@@ -201,6 +201,7 @@ class Table:
             The table does not serve it.
         """
         made = TableContact(touch_gap=touch_gap)
+        contact = {"friction": self.info.friction, **contact}
         scene, _kept = _scene(self.material if material is None else material, contact)
         call(_library.table.restitute_table_contact_set, self._handle, scene, made.struct)
         return made
