@@ -333,9 +333,8 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
         rst_write_history(&samples, &problem.units, &series);
         RST_GIVE(&series, history);
     }
-    if (!outcome.sunk || !problem.solid.can_sink) /* with a spring at rest the sphere comes back, however slowly */
-        status = judge_tolerance(&problem, &found, status, error);
-    else if (status == RESTITUTE_OK)
+    status = judge_tolerance(&problem, &found, status, error);
+    if (status == RESTITUTE_OK && outcome.sunk && problem.solid.can_sink) /* else it comes back, however slowly */
         status = rst_report(error, RESTITUTE_NO_REBOUND, "%s", restitute_status_text(RESTITUTE_NO_REBOUND));
     rst_name_limits(&solver->options, input->scene, &found, error);
     return status;

@@ -69,7 +69,7 @@ static int make_arms(struct rst_motion *motion, int64_t most)
     return 0;
 }
 
-int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *problem, int keep)
+int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *problem, int first, int keep)
 {
     const struct rst_solid *s = &problem->solid;
     if (make_arms(motion, s->n_terms + 1)) return 1;
@@ -78,12 +78,13 @@ int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *proble
     const size_t bytes = (size_t)n * sizeof(double);
     const double share = problem->mode == RST_FRICTIONLESS ? 1 : fmin(1, problem->shear_speed / (2 * problem->chi));
     const double stop_speed = fmax(rst_slowest, rst_rest_part * problem->tolerance * share);
-    const int same = keep && n == motion->n_arms && motion->eta == s->eta && memcmp(held, asked, bytes) == 0 &&
+    const int same = keep && first == motion->first && n == motion->n_arms && motion->eta == s->eta && memcmp(held, asked, bytes) == 0 &&
                      memcmp(held + motion->most_arms, asked + motion->most_arms, bytes) == 0;
     motion->stop_speed = stop_speed;
     if (same) return 0;
     memcpy(held, asked, bytes);
     memcpy(held + motion->most_arms, asked + motion->most_arms, bytes);
+    motion->first = first;
     motion->n_arms = n;
     motion->eta = s->eta;
     motion->scale = sqrt(0.4 * rst_likely_depth(s->g_inf, s->eta, s->n_terms, s->g, s->tau));

@@ -28,6 +28,7 @@ struct rst_motion {
     struct rst_own_memory own; /* released with the workspace */
     double *arms;              /* g and rate of the solid held, and of the one asked for */
     double eta, scale, stop_speed;
+    int first;
     int64_t n_arms, most_arms;
     struct rst_run run[rst_most_halvings + 1];
     struct sync_store store;
@@ -41,9 +42,10 @@ int rst_make_room(double **room, size_t *size, size_t count);
 /* The motion that a workspace keeps; NULL: out of memory. */
 struct rst_motion *rst_motion_of(struct rst_workspace *workspace);
 
-/* Take the solid of the problem. keep: runs stay if they were for the same solid, bit by bit.
- * Nonzero: out of memory. */
-int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *problem, int keep);
+/* Take the solid of the problem. first: the halvings of its first run. keep: runs stay if they were
+ * for the same solid and first, bit by bit: a run follows the one before it. Nonzero: out of
+ * memory. */
+int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *problem, int first, int keep);
 
 /* Room for runs with `from` to `to` halvings on solids of up to that many arms. Nonzero: out of
  * memory. */

@@ -201,10 +201,9 @@ static int refine_from(struct rst_motion *motion, const struct rst_problem *prob
 
 /* Where fine runs are lost in rounding, or cost too much, coarser ones may not: their estimate says
  * what they are worth. */
-static int refine(struct rst_motion *motion, const struct rst_problem *problem, struct attempt *fine,
+static int refine(struct rst_motion *motion, const struct rst_problem *problem, int first, struct attempt *fine,
                   struct rst_outcome *outcome, restitute_error *error)
 {
-    const int first = first_halvings(problem);
     const int status = refine_from(motion, problem, first, fine, outcome, error);
     const int fails = status == RESTITUTE_ERROR_CONVERGENCE || status == RESTITUTE_ERROR_TOO_MUCH_WORK;
     if (!fails || first == 1) return status;
@@ -216,10 +215,11 @@ static int solve(const struct rst_problem *problem, struct rst_workspace *worksp
 {
     struct rst_motion *motion = rst_motion_of(workspace);
     struct attempt fine = {0};
-    if (!motion || rst_motion_begin(motion, problem, workspace->keeps_motion))
+    const int first = first_halvings(problem);
+    if (!motion || rst_motion_begin(motion, problem, first, workspace->keeps_motion))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the motion");
     *outcome = (struct rst_outcome){0};
-    int status = refine(motion, problem, &fine, outcome, error);
+    int status = refine(motion, problem, first, &fine, outcome, error);
     const int spent = status == RESTITUTE_TOLERANCE_NOT_REACHED;
     if (status < 0) return status;
     outcome->max_normal_force = largest_force(&fine.run->normal);

@@ -100,6 +100,25 @@ static void any_number_of_threads_gives_the_bits_of_single_calls(void **state)
         restitute_material_destroy(solids[i]);
 }
 
+/* With a large chi sync begins with finer panels. The run at these is another one if a coarser one
+ * was made before it. */
+static void solids_alike_under_another_chi_share_no_coarser_run(void **state)
+{
+    (void)state;
+    restitute_options options = to_tolerance(1e-2);
+    restitute_impact impacts[2];
+    restitute_result expected[2], results[2];
+    int wanted[2], statuses[2];
+    options.method = restitute_method_sync();
+    for (int i = 0; i < 2; i++)
+        impacts[i] = impact_of(i == 0 ? 1.7 : 229.3, i == 0 ? 1e6 : 2.3e-7, 0.3, 1);
+    prepare(2, expected, wanted);
+    prepare(2, results, statuses);
+    one_by_one(&options, 2, impacts, expected, wanted);
+    CHECK(restitute_solve_many(2, impacts, &options, results, statuses, NULL) == RESTITUTE_OK, "status");
+    CHECK(memcmp(results, expected, sizeof results) == 0, "ex %.17g, not %.17g", results[1].ex, expected[1].ex);
+}
+
 /* The defaults, with so many threads. */
 static const restitute_options *by(int threads)
 {
@@ -330,6 +349,7 @@ static void threads_round_as_the_caller_does(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(solids_alike_under_another_chi_share_no_coarser_run),
         cmocka_unit_test(any_number_of_threads_gives_the_bits_of_single_calls),
         cmocka_unit_test(scenes_give_the_bits_of_single_calls),
         cmocka_unit_test(failures_stop_nobody_and_the_first_is_named),

@@ -347,6 +347,20 @@ static void maxwell_body_with_a_short_time_never_rebounds(void **state)
     restitute_material_destroy(solid);
 }
 
+/* Where the share of the tolerance that the method aims at is missed, but not the tolerance: there
+ * is nothing to say but NO_REBOUND. */
+static void what_sinks_within_the_tolerance_has_no_remark(void **state)
+{
+    const double tau[] = {7.7794472453565985e-10}, g[] = {1};
+    restitute_material *solid = solid_of(0, 0, 1, tau, g);
+    const restitute_impact impact = impact_on(solid, 235.89594508419174, 0.0099191648170893158);
+    const struct solution s = solve_impact(sync_to(1e-5), impact);
+    (void)state;
+    CHECK(s.result.error_ex > 0.9e-5 && s.result.error_ex <= 1e-5, "%g is no such case", s.result.error_ex);
+    CHECK(s.status == RESTITUTE_NO_REBOUND, "status %d", s.status);
+    restitute_material_destroy(solid);
+}
+
 /* The impulse of the force is 1, so that of friction takes at most 2 chi from U': for 2
  * chi < psi < 1 the contact begins to stick and yet the contact point cannot stop, |U'| >= psi - 2
  * chi. */
@@ -625,6 +639,7 @@ int main(void)
         cmocka_unit_test(limits_of_single_terms_hold),
         cmocka_unit_test(a_term_may_be_split),
         cmocka_unit_test(maxwell_body_with_a_short_time_never_rebounds),
+        cmocka_unit_test(what_sinks_within_the_tolerance_has_no_remark),
         cmocka_unit_test(what_sinks_does_not_stop_what_friction_cannot),
         cmocka_unit_test(nearly_elastic_spheres_rebound),
         cmocka_unit_test(extreme_chi_works),

@@ -23,7 +23,7 @@ static struct rst_problem problem_of(double g_inf, double eta, int n_terms, doub
 
 static const struct rst_run *begin(struct rst_motion *motion, struct rst_problem problem, int keep)
 {
-    CHECK(rst_motion_begin(motion, &problem, keep) == 0, "memory");
+    CHECK(rst_motion_begin(motion, &problem, 1, keep) == 0, "memory");
     const struct rst_run *run = rst_motion_run(motion, halvings, 1000);
     CHECK(run && (run->found == RST_REBOUNDS || run->found == RST_STOPS), "no run");
     return run;
