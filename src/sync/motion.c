@@ -78,7 +78,8 @@ int rst_motion_begin(struct rst_motion *motion, const struct rst_problem *proble
     const size_t bytes = (size_t)n * sizeof(double);
     const double share = problem->mode == RST_FRICTIONLESS ? 1 : fmin(1, problem->shear_speed / (2 * problem->chi));
     const double stop_speed = fmax(rst_slowest, rst_rest_part * problem->tolerance * share);
-    const int same = keep && first == motion->first && n == motion->n_arms && motion->eta == s->eta && memcmp(held, asked, bytes) == 0 &&
+    const int same = keep && first == motion->first && n == motion->n_arms && motion->eta == s->eta &&
+                     memcmp(held, asked, bytes) == 0 &&
                      memcmp(held + motion->most_arms, asked + motion->most_arms, bytes) == 0;
     motion->stop_speed = stop_speed;
     if (same) return 0;

@@ -1,0 +1,164 @@
+/* Campaign: tables of random solids, and look-ups at all speeds (docs/records/extremes.md).
+ *
+ *     extreme_tables LOOKUPS SEED [FIRST [TABLES]]
+ *
+ * TABLES (default 100) tables, each with its share of the look-ups, in blocks that are looked up in
+ * one call and, every tenth, one by one. At places within the range of a table the method sync
+ * solves the impact as well. Exit status 0: no fault, 1: faults, 2: usage.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#define _POSIX_C_SOURCE 200809L
+#include <restitute/table.h>
+
+#include "../support/remarks.h"
+#include "extremes.h"
+
+enum { block = 1000, most_terms = 30, samples = 20 };
+
+struct tally {
+    long tables, missed, failed, lookups, compared, beyond;
+    double worst; /* error over the stated one */
+    long worst_case;
+    double slowest;
+    struct remark remarks[most_remarks];
+};
+
+static restitute_material *draw_solid(uint64_t *random)
+{
+    double tau[most_terms], g[most_terms];
+    const int kind = random_below(random, 5), terms = kind < 2   ? 0
+                                                      : kind < 4 ? 1
+                                                                 : 2 + random_below(random, most_terms - 1);
+    const double eta = kind == 1 || random_below(random, 4) == 0 ? random_log(random, 1, 1e5) : 0;
+    for (int k = 0; k < terms; k++) {
+        tau[k] = random_log(random, 1e-9, 1e3);
+        g[k] = random_log(random, 1e3, 1e9);
+    }
+    restitute_material *material = NULL;
+    restitute_material_prony(kind == 3 ? 0 : 1e6, kind == 0 ? 0 : eta, (size_t)terms, tau, g, random_in(random, 0, 0.5),
+                             &material, NULL);
+    return material;
+}
+
+static void check_block(const restitute_table *table, const restitute_table_contact *contact, uint64_t *random,
+                        int alone)
+{
+    double normal[block], sliding[block], ez[block], ex[block];
+    const int kind = random_below(random, 3);
+    for (int i = 0; i < block; i++) {
+        normal[i] = kind ? random_log(random, 1e-6, 1e4) : random_log(random, 1e-290, 1e100);
+        sliding[i] = normal[i] * random_log(random, 1e-6, 1e3);
+        if (kind == 0) sliding[i] = random_log(random, 1e-290, 1e100);
+        if (i % 64 == 0) *(i % 128 ? &normal[i] : &sliding[i]) = 0;
+        if (i % 2) sliding[i] = -sliding[i];
+    }
+    feclearexcept(FE_ALL_EXCEPT);
+    const int status = restitute_table_pair_many(table, contact, block, normal, sliding, ez, ex, NULL);
+    expect_no_exception("restitute_table_pair_many");
+    EXPECT(status == 0, "status %d", status);
+    for (int i = 0; i < block; i++) {
+        double z = 0, x = 0;
+        EXPECT(ez[i] >= 0 && ez[i] <= 1 && ex[i] >= -1 && ex[i] <= 1, "ez %.17g ex %.17g at %.17g, %.17g m/s", ez[i],
+               ex[i], normal[i], sliding[i]);
+        if (!alone) continue;
+        restitute_table_pair(table, contact, normal[i], sliding[i], &z, &x, NULL);
+        EXPECT(z == ez[i] && x == ex[i], "alone %.17g %.17g, in a batch %.17g %.17g", z, x, ez[i], ex[i]);
+    }
+}
+
+/* The stated error is a bound; twice of it is a fault. */
+static void check_errors(struct tally *t, const restitute_table *table, restitute_scene scene, uint64_t *random)
+{
+    restitute_table_info info;
+    restitute_options options;
+    restitute_solver *solver = NULL;
+    restitute_table_info_init(&info);
+    restitute_table_describe(table, &info, NULL);
+    restitute_options_init(&options);
+    options.method = restitute_method_sync();
+    options.tolerance = fmax(1e-8, info.tolerance / 10);
+    options.time_limit = INFINITY, options.max_work = 0.1;
+    if (restitute_solver_create(&options, &solver, NULL) < 0) return;
+    for (int i = 0; i < samples; i++) {
+        restitute_result r;
+        double ez = 0, ex = 0;
+        restitute_result_init(&r);
+        scene.normal_speed = random_log(random, info.speed[0], info.speed[1]);
+        scene.tangential_speed = scene.normal_speed * random_log(random, 1e-3, 10);
+        const int status = restitute_solve_scene(solver, &scene, &r, NULL, NULL, NULL);
+        restitute_table_pair(table, NULL, scene.normal_speed, scene.tangential_speed, &ez, &ex, NULL);
+        if (status != RESTITUTE_OK && status != RESTITUTE_NO_REBOUND) continue;
+        const double ratio =
+            fmax((fabs(ez - r.ez) - r.error_ez) / info.error_ez, (fabs(ex - r.ex) - r.error_ex) / info.error_ex);
+        t->compared++;
+        t->beyond += ratio > 1;
+        if (ratio > t->worst) t->worst = ratio, t->worst_case = current;
+        EXPECT(ratio <= 2, "at %.17g, %.17g m/s: ez %.9g ex %.9g, sync %.9g %.9g, stated errors %.2g %.2g",
+               scene.normal_speed, scene.tangential_speed, ez, ex, r.ez, r.ex, info.error_ez, info.error_ex);
+    }
+    restitute_solver_destroy(solver);
+}
+
+static void run_table(struct tally *t, uint64_t *random, long lookups)
+{
+    static const double tolerances[] = {1e-2, 1e-3, 1e-4};
+    restitute_material *material = draw_solid(random);
+    restitute_table_options options;
+    restitute_scene scene, other;
+    restitute_error error = {0};
+    restitute_table *table = NULL;
+    restitute_scene_init(&scene);
+    scene.material = material;
+    scene.radius1 = random_log(random, 1e-4, 1e-1);
+    scene.mass1 = 4e3 * scene.radius1 * scene.radius1 * scene.radius1 * random_log(random, 0.1, 10);
+    scene.friction = random_below(random, 8) ? random_log(random, 1e-2, 3) : random_below(random, 2) ? 0 : INFINITY;
+    scene.rotation_blocked = random_below(random, 6) == 0;
+    scene.deformable = 1 + random_below(random, 2);
+    restitute_table_options_init(&options);
+    options.tolerance = tolerances[random_below(random, 3)];
+    options.max_impacts = 3000;
+    alarm(300);
+    const double start = processor_time();
+    const int status = restitute_table_build(&scene, &options, &table, &error);
+    t->slowest = fmax(t->slowest, processor_time() - start);
+    t->tables++;
+    t->missed += status == RESTITUTE_TOLERANCE_NOT_REACHED;
+    t->failed += status < 0;
+    EXPECT(status == RESTITUTE_OK || error.message[0], "status %d without a message", status);
+    if (status) add_remark(t->remarks, status, error.message);
+    if (table) {
+        restitute_table_contact contact;
+        restitute_table_contact_init(&contact);
+        other = scene;
+        if (scene.friction > 0 && scene.friction < INFINITY) other.friction = random_log(random, 1e-3, 10);
+        EXPECT(restitute_table_contact_set(table, &other, &contact, &error) == 0, "%s", error.message);
+        check_errors(t, table, scene, random);
+        for (long n = 0; n < lookups; n += block, t->lookups += block)
+            check_block(table, n % (2 * block) ? &contact : NULL, random, n % (10 * block) == 0);
+    }
+    alarm(0);
+    restitute_table_destroy(table);
+    restitute_material_destroy(material);
+}
+
+int main(int argc, char **argv)
+{
+    static struct tally t;
+    if (argc < 3 || argc > 5) return fprintf(stderr, "usage: extreme_tables LOOKUPS SEED [FIRST [TABLES]]\n"), 2;
+    const long first = argc > 3 ? strtol(argv[3], NULL, 10) : 0, tables = argc > 4 ? strtol(argv[4], NULL, 10) : 100;
+    const long lookups = strtol(argv[1], NULL, 10) / tables;
+    const uint64_t seed = strtoull(argv[2], NULL, 10);
+    watch_signals();
+    for (current = first; current < first + tables; current++) {
+        uint64_t random = random_of(seed, current);
+        run_table(&t, &random, lookups);
+    }
+    printf("%ld tables (%ld above their tolerance, %ld failed), slowest %.2f s, %ld look-ups\n", t.tables, t.missed,
+           t.failed, t.slowest, t.lookups);
+    for (int k = 0; k < most_remarks; k++)
+        if (t.remarks[k].count > 0)
+            printf("%8ld times status %d: %s\n", t.remarks[k].count, t.remarks[k].status, t.remarks[k].text);
+    printf("%ld compared with sync: %ld beyond the stated error, worst %.3g of it (case %ld); faults %ld\n", t.compared,
+           t.beyond, t.worst, t.worst_case, faults);
+    free_remarks(t.remarks);
+    return faults > 0;
+}

@@ -1,0 +1,334 @@
+/* Campaign: impacts at the ends of the domain, by one method (docs/records/extremes.md).
+ *
+ *     extremes METHOD COUNT SEED [FIRST [MAX_WORK [TIME_LIMIT]]]
+ *
+ * Cases 0 to CORNERS-1 are corners: products of the ends of all ranges. All others are random:
+ * delta1 and gamma in [1e-12, 1e12], psi in [1e-9, 1e9], chi in [1/3, 1e3], log-uniform, of all
+ * classes of solids. A case depends on SEED and its number alone: `extremes METHOD 1 SEED NUMBER`
+ * repeats it. Every 16th has a ledger; blocks of 64 go through restitute_solve_many as well, every
+ * 16th of them; samples go through a second method. Exit status 0: no fault, 1: faults, 2: usage.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#define _POSIX_C_SOURCE 200809L
+#include <restitute/restitute.h>
+#ifdef RESTITUTE_WITH_CVODE
+#include <restitute/cvode.h>
+#endif
+
+#include "../support/remarks.h"
+#include "extremes.h"
+
+enum { most_terms = 30, block = 64, CHI = 4, PSI = 7, DELTA1 = 4, GAMMA = 5, TOLERANCES = 4 };
+static const double chi_end[CHI] = {1.0 / 3, 0.5, 7.0 / 6, 1000}, delta1_end[DELTA1] = {0, 1e-12, 1, 1e12};
+static const double psi_end[PSI] = {0, 1e-9, 1, 2, 1e9, 1e12, INFINITY},
+                    gamma_end[GAMMA] = {0, 1e-12, 1, 1e12, INFINITY};
+static const long corners = CHI * PSI * DELTA1 * GAMMA;
+static const char *const class_name[] = {"corner", "elastic", "Kelvin-Voigt", "standard", "Maxwell", "Prony"};
+enum class { CORNER, ELASTIC, KELVIN_VOIGT, STANDARD, MAXWELL, PRONY, CLASSES };
+
+struct drawn_case {
+    enum class class;
+    restitute_impact impact;
+    restitute_material *material;
+    double tolerance;
+};
+
+/* Errors over estimates of the samples of a second method. */
+struct agreement {
+    long compared, unknown, low, far;
+    double worst;
+    long worst_case;
+};
+
+struct campaign {
+    restitute_options options;
+    restitute_solver *solver[TOLERANCES], *second[TOLERANCES];
+    int every; /* so many cases are one sample of the second method */
+    uint64_t seed;
+    long status[CLASSES][3], refused[CLASSES]; /* OK, NO_REBOUND, TOLERANCE_NOT_REACHED */
+    double seconds[CLASSES], slowest, worst_residual;
+    long slowest_case, residual_case, ledgers, batched;
+    struct agreement agreement[CLASSES];
+    struct remark remarks[most_remarks];
+};
+
+/* Of sync, and of the others, which are dearer. */
+static const double fine_tolerances[TOLERANCES] = {1e-2, 1e-3, 1e-5, 1e-7},
+                    coarse_tolerances[TOLERANCES] = {0.1, 1e-2, 3e-3, 1e-3};
+static const double *tolerances = coarse_tolerances;
+
+/* Two to thirty terms anywhere in 24 decades of time; every fourth solid flows, every second has a
+ * dashpot. */
+static restitute_material *draw_prony(uint64_t *random)
+{
+    double tau[most_terms], g[most_terms];
+    const int terms = 2 + random_below(random, most_terms - 1), flows = random_below(random, 4) == 0;
+    const int narrow = random_below(random, 2); /* moduli of one order: as measured series are */
+    const double eta = random_below(random, 2) ? random_log(random, 1e-12, 1e12) : 0;
+    for (int k = 0; k < terms; k++) {
+        tau[k] = random_log(random, 1e-12, 1e12);
+        g[k] = narrow ? random_log(random, 0.1, 10) : random_log(random, 1e-12, 1e12);
+    }
+    restitute_material *material = NULL;
+    restitute_material_prony(flows ? 0 : 1, eta, (size_t)terms, tau, g, 0.5, &material, NULL);
+    return material;
+}
+
+static struct drawn_case draw(const struct campaign *c, long number)
+{
+    struct drawn_case d = {.class = CORNER, .tolerance = tolerances[number % TOLERANCES]};
+    restitute_impact *i = &d.impact;
+    restitute_impact_init(i);
+    if (number < corners) {
+        long n = number;
+        i->chi = chi_end[n % CHI], n /= CHI;
+        i->psi = psi_end[n % PSI], n /= PSI;
+        i->delta1 = delta1_end[n % DELTA1], n /= DELTA1;
+        i->gamma = gamma_end[n];
+        return d;
+    }
+    uint64_t random = random_of(c->seed, number);
+    d.class = (enum class)(ELASTIC + random_below(&random, CLASSES - 1));
+    if (d.class == ELASTIC && random_below(&random, 8)) d.class = STANDARD; /* they are all alike */
+    i->chi = fmax(1.0 / 3, random_log(&random, 1.0 / 3, 1e3));
+    i->psi = random_log(&random, 1e-9, 1e9);
+    i->delta1 = random_log(&random, 1e-12, 1e12);
+    i->gamma = random_log(&random, 1e-12, 1e12);
+    if (d.class == ELASTIC) i->delta1 = 0;
+    if (d.class == KELVIN_VOIGT) i->gamma = 0;
+    const double g = 1, tau = i->delta1;
+    if (d.class == MAXWELL) restitute_material_prony(0, 0, 1, &tau, &g, 0.5, &d.material, NULL);
+    if (d.class == PRONY) d.material = draw_prony(&random);
+    i->material = d.material;
+    return d;
+}
+
+static void print_case(const struct drawn_case *d)
+{
+    double g_inf, eta, tau[most_terms], g[most_terms];
+    printf("    %s, tolerance %g: chi %.17g psi %.17g delta1 %.17g gamma %.17g\n", class_name[d->class], d->tolerance,
+           d->impact.chi, d->impact.psi, d->impact.delta1, d->impact.gamma);
+    if (!d->material || restitute_material_series(d->material, &g_inf, &eta, tau, g, NULL) < 0) return;
+    printf("    G_inf %.17g eta %.17g", g_inf, eta);
+    for (size_t k = 0; k < restitute_material_terms(d->material); k++)
+        printf(" (%.17g, %.17g)", tau[k], g[k]);
+    printf("\n");
+}
+
+static int is_pair(double ez, double ex)
+{
+    return ez >= 0 && ez <= 1 && ex >= -1 && ex <= 1; /* false for NaN */
+}
+
+static void check_result(const struct drawn_case *d, int status, const restitute_result *r, const char *message)
+{
+    const double error = fmax(r->error_ez, r->error_ex);
+    if (status < 0) {
+        EXPECT(message[0] != '\0', "status %d without a message", status);
+        EXPECT(r->ez == 42 && r->work == 42, "a failed call wrote its result");
+        return;
+    }
+    EXPECT(is_pair(r->ez, r->ex), "no pair: ez %.17g ex %.17g, status %d, error %g", r->ez, r->ex, status, error);
+    EXPECT(r->error_ez >= 0 && r->error_ex >= 0, "estimates %g %g", r->error_ez, r->error_ex);
+    EXPECT(r->max_normal_force > 0 && isfinite(r->max_normal_force), "largest force %g", r->max_normal_force);
+    EXPECT(r->max_indentation > 0 && isfinite(r->max_indentation), "depth %g", r->max_indentation);
+    EXPECT(r->contact_time > 0, "contact time %g", r->contact_time);
+    EXPECT(status != RESTITUTE_OK || error <= d->tolerance, "OK with an estimate of %g", error);
+    EXPECT(status != RESTITUTE_NO_REBOUND || (r->ez == 0 && isinf(r->contact_time)), "NO_REBOUND with ez %g", r->ez);
+    EXPECT(status != RESTITUTE_TOLERANCE_NOT_REACHED || (error > d->tolerance && message[0]),
+           "TOLERANCE_NOT_REACHED with %g, message '%s'", error, message);
+}
+
+/* Parts of the energy are not negative and add up with the residual, which the estimate of e_z
+ * covers: an error of e_z changes its square by up to twice as much. */
+static void check_ledger(struct campaign *c, const restitute_result *r, const restitute_ledger *l)
+{
+    const double parts[] = {l->rebound_z,  l->viscous_z, l->left_z, l->rebound_x,
+                            l->friction_x, l->viscous_x, l->left_x};
+    for (int k = 0; k < 7; k++)
+        EXPECT(parts[k] >= -1e-12 && isfinite(parts[k]), "part %d of the ledger is %g", k, parts[k]);
+    EXPECT(fabs(parts[0] + parts[1] + parts[2] + l->residual_z - 1) <= 1e-12, "z adds up to %g",
+           parts[0] + parts[1] + parts[2] + l->residual_z);
+    EXPECT(isfinite(l->residual_z) && isfinite(l->residual_x), "residuals %g %g", l->residual_z, l->residual_x);
+    EXPECT(fabs(l->rebound_z - r->ez * r->ez) <= 2 * r->error_ez + 1e-12, /* ez ends at 1 */
+           "rebound %.17g of ez %.17g", l->rebound_z, r->ez);
+    c->ledgers++;
+    if (!(fabs(l->residual_z) > c->worst_residual)) return;
+    c->worst_residual = fabs(l->residual_z);
+    c->residual_case = current;
+}
+
+/* What two results differ by beyond the estimate of the second, over that of the first. */
+static void compare(struct campaign *c, const struct drawn_case *d, int k, const restitute_result *r)
+{
+    restitute_result other;
+    struct agreement *a = &c->agreement[d->class];
+    restitute_result_init(&other);
+    const int status = restitute_solve(c->second[k], &d->impact, &other, NULL, NULL, NULL);
+    const double z = fabs(r->ez - other.ez) - other.error_ez - 1e-15,
+                 x = fabs(r->ex - other.ex) - other.error_ex - 1e-15;
+    if (status < 0 || fmax(other.error_ez, other.error_ex) > d->tolerance) {
+        a->unknown++;
+        return;
+    }
+    const double ratio = fmax(z <= 0 ? 0 : z / r->error_ez, x <= 0 ? 0 : x / r->error_ex);
+    a->compared++;
+    a->low += ratio > 1;
+    a->far += ratio > 10;
+    if (ratio > 10) {
+        fault("ez %.9g ex %.9g, estimates %.2g %.2g; second method %.9g %.9g, %.2g %.2g: %.3g times", r->ez, r->ex,
+              r->error_ez, r->error_ex, other.ez, other.ex, other.error_ez, other.error_ex, ratio);
+        if (faults <= shown_faults) print_case(d);
+    }
+    if (ratio > a->worst) a->worst = ratio, a->worst_case = current;
+}
+
+static void solve_case(struct campaign *c, const struct drawn_case *d, int *status, restitute_result *r)
+{
+    restitute_error error = {0};
+    restitute_ledger ledger;
+    const int k = (int)(current % TOLERANCES), has_ledger = current % 16 == 3 && d->impact.psi >= 1e-3;
+    const long before = faults;
+    restitute_ledger_init(&ledger);
+    restitute_result_init(r);
+    r->ez = r->work = 42;
+    alarm(60); /* hangs */
+    feclearexcept(FE_ALL_EXCEPT);
+    const double start = processor_time();
+    *status = restitute_solve(c->solver[k], &d->impact, r, has_ledger ? &ledger : NULL, NULL, &error);
+    const double taken = processor_time() - start;
+    expect_no_exception("restitute_solve");
+    alarm(0);
+    c->seconds[d->class] += taken;
+    const double limit = c->options.time_limit > 0 ? fmax(0.1, c->options.time_limit) : 1;
+    if (!has_ledger) EXPECT(taken <= 2 * limit, "%.2f s", taken);
+    if (!has_ledger && taken > c->slowest) c->slowest = taken, c->slowest_case = current;
+    if (*status < 0)
+        c->refused[d->class]++;
+    else if (*status < 3)
+        c->status[d->class][*status]++;
+    if (*status < 0 || *status == RESTITUTE_TOLERANCE_NOT_REACHED) add_remark(c->remarks, *status, error.message);
+    check_result(d, *status, r, error.message);
+    if (has_ledger && *status == RESTITUTE_OK) check_ledger(c, r, &ledger);
+    if (faults > before && faults <= shown_faults) print_case(d);
+    if (*status >= 0 && c->second[k] && current / TOLERANCES % c->every == 0) compare(c, d, k, r);
+}
+
+/* Cases of one tolerance again, in one call, by two threads: the same bits. */
+static void check_batch(struct campaign *c, long first, const struct drawn_case *d, const int *status,
+                        const restitute_result *results)
+{
+    for (int k = 0; k < TOLERANCES; k++) {
+        restitute_impact impacts[block];
+        restitute_result again[block];
+        int statuses[block], at[block], n = 0;
+        for (int i = 0; i < block; i++)
+            if ((first + i) % TOLERANCES == k && (first + i) % 16 != 3) {
+                restitute_result_init(&again[n]);
+                impacts[n] = d[i].impact, at[n++] = i;
+            }
+        restitute_options options = c->options;
+        options.tolerance = tolerances[k];
+        options.threads = 2;
+        alarm(600);
+        restitute_solve_many((size_t)n, impacts, &options, again, statuses, NULL);
+        alarm(0);
+        for (int j = 0; j < n; j++) {
+            const restitute_result *r = &results[at[j]];
+            current = first + at[j];
+            EXPECT(statuses[j] == status[at[j]], "status %d, in a batch %d", status[at[j]], statuses[j]);
+            EXPECT(statuses[j] < 0 ||
+                       (again[j].ez == r->ez && again[j].ex == r->ex && again[j].error_ex == r->error_ex),
+                   "ez %.17g ex %.17g, in a batch %.17g %.17g", r->ez, r->ex, again[j].ez, again[j].ex);
+        }
+        c->batched += n;
+    }
+}
+
+static void run(struct campaign *c, long first, long count)
+{
+    static struct drawn_case drawn[block];
+    static restitute_result results[block];
+    int status[block];
+    time_t shown = time(NULL);
+    for (long at = first; at < first + count; at += block) {
+        const int n = (int)(first + count - at < block ? first + count - at : block);
+        for (int i = 0; i < n; i++) {
+            current = at + i;
+            drawn[i] = draw(c, current);
+            solve_case(c, &drawn[i], &status[i], &results[i]);
+        }
+        if (n == block && at / block % 16 == 0 && isinf(c->options.time_limit))
+            check_batch(c, at, drawn, status, results);
+        for (int i = 0; i < n; i++)
+            restitute_material_destroy(drawn[i].material);
+        if (time(NULL) - shown < 60) continue;
+        shown = time(NULL);
+        fprintf(stderr, "%ld of %ld, %ld faults\n", at + n - first, count, faults);
+    }
+}
+
+static void report(struct campaign *c)
+{
+    for (int k = 0; k < CLASSES; k++) {
+        const long *s = c->status[k], n = s[0] + s[1] + s[2] + c->refused[k];
+        const struct agreement *a = &c->agreement[k];
+        if (n == 0) continue;
+        printf("%-12s %8ld: OK %ld, NO_REBOUND %ld, TOLERANCE_NOT_REACHED %ld, failed %ld; %.0f us each; compared %ld, "
+               "unknown %ld, error > estimate %ld, > 10 estimates %ld, worst %.3g (case %ld)\n",
+               class_name[k], n, s[0], s[1], s[2], c->refused[k], 1e6 * c->seconds[k] / (double)n, a->compared,
+               a->unknown, a->low, a->far, a->worst, a->worst_case);
+    }
+    for (int k = 0; k < most_remarks; k++)
+        if (c->remarks[k].count > 0)
+            printf("%8ld times status %d: %s\n", c->remarks[k].count, c->remarks[k].status, c->remarks[k].text);
+    printf("slowest %.3f s (case %ld); ledgers %ld, largest residual_z %.2g (case %ld); in batches %ld; faults %ld\n",
+           c->slowest, c->slowest_case, c->ledgers, c->worst_residual, c->residual_case, c->batched, faults);
+}
+
+static restitute_solver *solver_of(const restitute_options *like, const restitute_method *method, double tolerance)
+{
+    restitute_options options = *like;
+    restitute_solver *solver = NULL;
+    options.method = method;
+    options.tolerance = tolerance;
+    if (!method || restitute_solver_create(&options, &solver, NULL) < 0) return NULL;
+    return solver;
+}
+
+int main(int argc, char **argv)
+{
+    static struct campaign c;
+    const restitute_method *sync = restitute_method_sync(), *euler = restitute_method_euler(), *cvode = NULL;
+#ifdef RESTITUTE_WITH_CVODE
+    cvode = restitute_method_cvode();
+#endif
+    const restitute_method *method = NULL, *known[] = {sync, euler, cvode};
+    for (int k = 0; k < 3 && argc > 3; k++)
+        if (known[k] && strcmp(argv[1], restitute_method_name(known[k])) == 0) method = known[k];
+    if (method == sync) tolerances = fine_tolerances;
+    if (!method || argc > 7) {
+        fprintf(stderr, "usage: extremes sync|euler|cvode COUNT SEED [FIRST [MAX_WORK [TIME_LIMIT]]]\n");
+        return 2;
+    }
+    restitute_options_init(&c.options);
+    c.options.method = method;
+    c.options.max_work = argc > 5 ? strtod(argv[5], NULL) : 0.01;
+    c.options.time_limit = argc > 6 ? strtod(argv[6], NULL) : INFINITY;
+    c.seed = strtoull(argv[3], NULL, 10);
+    c.every = method == sync ? 64 : 4; /* sync is the fast one */
+    restitute_options second = c.options;
+    second.max_work = 0.1, second.time_limit = INFINITY;
+    for (int k = 0; k < TOLERANCES; k++) {
+        c.solver[k] = solver_of(&c.options, method, tolerances[k]);
+        c.second[k] = solver_of(&second, method == sync ? cvode : sync, tolerances[k] / 10);
+    }
+    watch_signals();
+    run(&c, argc > 4 ? strtol(argv[4], NULL, 10) : 0, strtol(argv[2], NULL, 10));
+    report(&c);
+    for (int k = 0; k < TOLERANCES; k++) {
+        restitute_solver_destroy(c.solver[k]);
+        restitute_solver_destroy(c.second[k]);
+    }
+    free_remarks(c.remarks);
+    return faults > 0;
+}

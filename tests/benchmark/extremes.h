@@ -1,0 +1,81 @@
+/* What the programs of the extreme campaign share (docs/records/extremes.md): faults, each with the
+ * number of the case that shows it, and the numbers of a case whose program crashed or hangs.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef BENCHMARK_EXTREMES_H
+#define BENCHMARK_EXTREMES_H
+
+#include <fenv.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "../support/random.h"
+
+enum { shown_faults = 20 };
+
+static long faults;
+static volatile long current; /* case */
+
+/* Counts a fault; the first ones are described. */
+static inline void fault(const char *form, ...)
+{
+    va_list list;
+    if (++faults > shown_faults) return;
+    printf("FAULT case %ld: ", current);
+    va_start(list, form);
+    vprintf(form, list);
+    va_end(list);
+    printf("\n");
+    fflush(stdout);
+}
+
+#define EXPECT(condition, ...) ((condition) ? (void)0 : fault(__VA_ARGS__))
+
+static void report_signal(int number)
+{
+    char text[64] = "case                     : signal   \n";
+    long n = current;
+    for (int k = 24; k > 4 && (n > 0 || k == 24); k--, n /= 10)
+        text[k] = (char)('0' + n % 10);
+    text[34] = (char)('0' + number / 10), text[35] = (char)('0' + number % 10);
+    if (write(STDOUT_FILENO, text, strlen(text)) < 0) _exit(4);
+    _exit(3);
+}
+
+static inline void watch_signals(void)
+{
+    static const int numbers[] = {SIGALRM, SIGSEGV, SIGFPE, SIGABRT, SIGBUS, SIGILL};
+    for (int k = 0; k < 6; k++)
+        signal(numbers[k], report_signal);
+}
+
+/* Hosts may trap what a call of the library must not raise. */
+static inline void expect_no_exception(const char *what)
+{
+    const int raised = fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+    if (!raised) return;
+    fault("%s raises%s%s%s", what, raised & FE_INVALID ? " invalid" : "", raised & FE_DIVBYZERO ? " divbyzero" : "",
+          raised & FE_OVERFLOW ? " overflow" : "");
+    feclearexcept(FE_ALL_EXCEPT);
+}
+
+static inline double processor_time(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* The random numbers of a case: the same whatever was run before. */
+static inline uint64_t random_of(uint64_t seed, long number)
+{
+    uint64_t random = seed ^ ((uint64_t)number * UINT64_C(0xd1342543de82ef95));
+    random_bits(&random);
+    return random;
+}
+
+#endif
