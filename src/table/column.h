@@ -47,6 +47,12 @@ struct rst_column_normal {
     double contact_time; /* s */
 };
 
+/* Whether e_x is 0 up to psi_c. What sinks with chi < 1/2 slides on: friction cannot stop it. */
+static inline int rst_column_rests(const struct rst_contact *contact, const struct rst_column_normal *normal)
+{
+    return normal->sunk && contact->numbers.chi >= 0.5;
+}
+
 /* The solver may fail where a sphere hardly rebounds. */
 static inline int rst_column_is_too_hard(int status)
 {

@@ -72,7 +72,7 @@ static int can_halve(const struct rst_builder *b, int64_t i)
 {
     const struct rst_column *c = &b->column[i];
     if (c->speed >= b->options.speed[1] || c[1].at - c->at <= 2 * rst_narrowest) return 0;
-    return !(c->normal.sunk && c[1].normal.sunk) &&
+    return !(rst_column_rests(&b->contact, &c->normal) && c[1].normal.sunk) &&
            c->by_speed > fmax(fmax(c->solver, c[1].solver), rst_part_of_axis * rst_left_by_psi(b, i));
 }
 

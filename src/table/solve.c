@@ -34,7 +34,7 @@ static int solve_column(const struct rst_builder *b, struct rst_column_solver *s
     int status = rst_column_begin(s, c->speed, &t->why);
     if (!status) status = rst_column_normal(s, &c->normal, &t->why);
     c->impacts = 1;
-    if (status < 0 || c->normal.sunk || b->contact.friction <= 0) return status;
+    if (status < 0 || rst_column_rests(&b->contact, &c->normal) || b->contact.friction <= 0) return status;
     if (isinf(b->contact.friction)) {
         status = rst_panel_solve(&p, 0, c->g[0]);
         c->g[0][1] = c->g[1][0] = c->g[0][0];

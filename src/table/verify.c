@@ -126,7 +126,7 @@ static int compare(const struct work *w, struct check *c, struct rst_column_solv
     if (status < 0) return status;
     rst_table_evaluate(w->table, c->speed, 0, 1, &ez, &ex);
     c->ez = fabs(ez - normal.ez) + normal.error;
-    for (int64_t i = 0; i < n && !normal.sunk && !status; i++) {
+    for (int64_t i = 0; i < n && !rst_column_rests(&b->contact, &normal) && !status; i++) {
         const struct rst_place place = place_of(c, i, c->cell + 7 * w->round);
         const double psi = rst_has_psi(&b->contact) ? rst_psi_at(b, place.panel, place.x, normal.ez) : 0;
         double solved, error_ex;

@@ -240,6 +240,43 @@ static void rebound_begins_at_a_seam(void **state)
     restitute_material_destroy(maxwell);
 }
 
+/* With chi < 1/2 friction cannot stop it. */
+static void what_sinks_may_slide_on(void **state)
+{
+    restitute_material *maxwell;
+    restitute_solver *solver;
+    restitute_options precise = to_tolerance(1e-6);
+    restitute_table_options options = options_of(1);
+    restitute_error error;
+    double least = 0;
+    (void)state;
+    restitute_scene scene = ball_on(1, &maxwell);
+    restitute_material_destroy(maxwell);
+    assert_int_equal(restitute_material_maxwell(1e6, 0.2, 0.5, &maxwell, &error), RESTITUTE_OK);
+    scene.material = maxwell;
+    scene.rotation_blocked = 1;
+    options.speed[0] = 1e-3, options.speed[1] = 1, options.tolerance = 1e-3;
+    restitute_table *table = built(&scene, &options);
+    const restitute_table_info info = describe(table);
+    precise.method = restitute_method_sync();
+    assert_int_equal(restitute_solver_create(&precise, &solver, &error), RESTITUTE_OK);
+    for (int i = 1; i < 20; i++) {
+        restitute_result result;
+        restitute_result_init(&result);
+        scene.normal_speed = 0.1, scene.tangential_speed = 0.01 * i;
+        CHECK(restitute_solve_scene(solver, &scene, &result, NULL, NULL, &error) == RESTITUTE_NO_REBOUND, "%s",
+              error.message);
+        const struct pair pair = look_up(table, scene.normal_speed, scene.tangential_speed);
+        CHECK(pair.ez == 0, "ez %g", pair.ez);
+        CHECK_NEAR(pair.ex, result.ex, info.error_ex, "ex at %g m/s", scene.tangential_speed);
+        least = fmin(least, pair.ex);
+    }
+    CHECK(least < -0.1, "ex is at least %g", least);
+    restitute_solver_destroy(solver);
+    restitute_table_destroy(table);
+    restitute_material_destroy(maxwell);
+}
+
 /* The speeds from which on limits are passed, and the flags of single places, are those of the
  * impacts. */
 static void limits_travel(void **state)
@@ -459,6 +496,7 @@ int main(void)
                                        cmocka_unit_test(hardly_any_partial_slip),
                                        cmocka_unit_test(data_makes_the_same_table),
                                        cmocka_unit_test(rebound_begins_at_a_seam),
+                                       cmocka_unit_test(what_sinks_may_slide_on),
                                        cmocka_unit_test(limits_travel),
                                        cmocka_unit_test(many_tables_at_once),
                                        cmocka_unit_test(few_impacts_give_an_honest_table),
