@@ -200,14 +200,16 @@ static int refine_from(struct rst_motion *motion, const struct rst_problem *prob
 }
 
 /* Where fine runs are lost in rounding, or cost too much, coarser ones may not: their estimate says
- * what they are worth. */
+ * what they are worth. Where the number of points is given, the finest of them that works. */
 static int refine(struct rst_motion *motion, const struct rst_problem *problem, int first, struct attempt *fine,
                   struct rst_outcome *outcome, restitute_error *error)
 {
-    const int status = refine_from(motion, problem, first, fine, outcome, error);
-    const int fails = status == RESTITUTE_ERROR_CONVERGENCE || status == RESTITUTE_ERROR_TOO_MUCH_WORK;
-    if (!fails || first == 1) return status;
-    return refine_from(motion, problem, 1, fine, outcome, error);
+    int status = refine_from(motion, problem, first, fine, outcome, error);
+    while (first > 1 && (status == RESTITUTE_ERROR_CONVERGENCE || status == RESTITUTE_ERROR_TOO_MUCH_WORK)) {
+        first = problem->elements > 0 ? first - 1 : 1;
+        status = refine_from(motion, problem, first, fine, outcome, error);
+    }
+    return status;
 }
 
 static int solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
