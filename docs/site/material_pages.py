@@ -73,7 +73,7 @@ def _constants(material):
     if series.parallel_viscosity > 0:
         rows.append(("viscosity", _number(series.parallel_viscosity) + " Pa s"))
     if window:
-        rows.append(("measured between", f"{window[0]:.2g} s and {window[1]:.2g} s"))
+        rows.append(("measured for contacts", f"of {window[0]:.2g} s to {window[1]:.2g} s"))
     return "| | |\n|---|---|\n" + "".join(f"| {name} | {value} |\n" for name, value in rows)
 
 

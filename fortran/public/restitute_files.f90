@@ -23,7 +23,8 @@ module restitute_files_module
     character(kind=c_char) :: name(128) = c_null_char, source(512) = c_null_char, model(32) = c_null_char
     real(c_double) :: density = 0
     integer(c_int64_t) :: fingerprint = 0
-    real(c_double) :: temperature = 0, wlf_c1 = 0, wlf_c2 = 0, wlf_reference = 0, window(2) = 0
+    real(c_double) :: temperature = 0, wlf_c1 = 0, wlf_c2 = 0, wlf_reference = 0, &
+      wlf_range(2) = 0, window(2) = 0, viscosity = 0
   end type restitute_material_info
 
   interface restitute_material_info

@@ -37,7 +37,8 @@ module restitute_table_module
     real(c_double) :: speed(2) = 0, tolerance = 0
     integer(c_int) :: threads = 0
     integer(c_int64_t) :: max_impacts = 0
-    real(c_double) :: time_limit = 0, speed_limit = 0, radius_limit = 0, displacement_limit = 0
+    real(c_double) :: time_limit = 0, speed_limit = 0, radius_limit = 0, displacement_limit = 0, &
+      dundurs_limit = 0
     type(c_funptr) :: interrupted = c_null_funptr
     type(c_ptr) :: interrupted_data = c_null_ptr
   end type restitute_table_options
@@ -45,7 +46,8 @@ module restitute_table_module
   !> Another contact that a table serves, filled by restitute_table_contact_set.
   type, bind(c) :: restitute_table_contact
     integer(c_size_t) :: struct_size = 0
-    real(c_double) :: speed_factor = 0, psi_factor = 0, radius = 0, mass = 0, touch_gap = 0
+    real(c_double) :: speed_factor = 0, psi_factor = 0, radius = 0, mass = 0, strain_factors(4) = 0, &
+      dundurs_beta = 0, touch_gap = 0
   end type restitute_table_contact
 
   !> What a table says of itself; restitute_text(info%version) is a Fortran text.
@@ -67,8 +69,8 @@ module restitute_table_module
     integer(c_int64_t) :: impacts = 0, checks = 0
     character(kind=c_char) :: version(32) = c_null_char
     real(c_double) :: chi = 0, gamma = 0, delta1 = 0, psi_factor = 0, duration = 0, friction = 0, radius = 0, &
-      mass = 0, poisson_ratio = 0, equilibrium_modulus = 0, parallel_viscosity = 0, speed_limit = 0, &
-      radius_limit = 0, displacement_limit = 0
+      mass = 0, poisson_ratio = 0, equilibrium_modulus = 0, parallel_viscosity = 0, density = 0, dundurs_beta = 0, &
+      shortest = 0, longest = 0, speed_limit = 0, radius_limit = 0, displacement_limit = 0, dundurs_limit = 0
     integer(c_int64_t) :: terms = 0, speeds = 0, stick_cells = 0, slip_cells = 0
     type(c_ptr) :: relaxation_time = c_null_ptr, modulus = c_null_ptr, speed = c_null_ptr, ez = c_null_ptr, &
       strain = c_null_ptr, ex = c_null_ptr
@@ -198,10 +200,11 @@ module restitute_table_module
       type(restitute_error), intent(inout), optional :: error
     end function c_collide
 
-    integer(c_int) function c_flags(table, normal_speed, sliding_speed, flags, error) &
+    integer(c_int) function c_flags(table, contact, normal_speed, sliding_speed, flags, error) &
       bind(c, name="restitute_table_flags")
       import
       type(c_ptr), value :: table
+      type(restitute_table_contact), intent(in), optional :: contact
       real(c_double), value :: normal_speed, sliding_speed
       integer(c_int), intent(inout) :: flags
       type(restitute_error), intent(inout), optional :: error
@@ -314,12 +317,14 @@ contains
     status = c_collide(table%address, contact, first, second, ez, ex, error)
   end function restitute_table_collide
 
-  integer(c_int) function restitute_table_flags(table, normal_speed, sliding_speed, flags, error) result(status)
+  integer(c_int) function restitute_table_flags(table, contact, normal_speed, sliding_speed, flags, error) &
+    result(status)
     type(restitute_table), intent(in) :: table
+    type(restitute_table_contact), intent(in), optional :: contact
     real(c_double), intent(in) :: normal_speed, sliding_speed
     integer(c_int), intent(inout) :: flags
     type(restitute_error), intent(inout), optional :: error
-    status = c_flags(table%address, normal_speed, sliding_speed, flags, error)
+    status = c_flags(table%address, contact, normal_speed, sliding_speed, flags, error)
   end function restitute_table_flags
 
   integer(c_int) function restitute_table_describe(table, info, error) result(status)
@@ -346,7 +351,7 @@ contains
     if (present(modulus)) call c_f_pointer(data%modulus, modulus, [data%terms])
     if (present(speed)) call c_f_pointer(data%speed, speed, [data%speeds])
     if (present(ez)) call c_f_pointer(data%ez, ez, [2_c_int64_t, data%speeds])
-    if (present(strain)) call c_f_pointer(data%strain, strain, [3_c_int64_t, data%speeds])
+    if (present(strain)) call c_f_pointer(data%strain, strain, [4_c_int64_t, data%speeds])
     if (present(ex)) call c_f_pointer(data%ex, ex, [4_c_int64_t, data%stick_cells + data%slip_cells + 2, data%speeds])
   end subroutine restitute_table_arrays
 
@@ -368,7 +373,7 @@ contains
     data%modulus = place(modulus, .true.)
     data%speed = place(speed, .true.)
     data%ez = place(ez, all(shape(ez) == [2, n]))
-    data%strain = place(strain, all(shape(strain) == [3, n]))
+    data%strain = place(strain, all(shape(strain) == [4, n]))
     data%ex = place(ex, size(ex, 1) == 4 .and. size(ex, 3) == n)
   contains
     type(c_ptr) function place(array, fits)

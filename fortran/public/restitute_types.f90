@@ -91,7 +91,7 @@ module restitute_types_module
   type, bind(c) :: restitute_numbers
     integer(c_size_t) :: struct_size = 0
     real(c_double) :: chi = 0, psi = 0, delta1 = 0, gamma = 0, delta2 = 0, radius = 0, mass = 0, modulus = 0, &
-      length_z = 0, length_x = 0, time = 0, force = 0
+      length_z = 0, length_x = 0, time = 0, force = 0, density = 0, dundurs_beta = 0
   end type restitute_numbers
 
   !> How to solve.

@@ -149,7 +149,7 @@ RESTITUTE_SINCE_0_1 int restitute_material_maxwell(double modulus, double viscos
  *
  *      beta = ((1-2nu1)/G1 - (1-2nu2)/G2)/(2((1-nu1)/G1 + (1-nu2)/G2)),
  *
- *  see @ref restitute_material_dundurs. The model is exact where beta is 0 all the time: if both
+ *  see @ref restitute_material_dundurs; a rigid partner has 1/G = 0. The model is exact where beta is 0 all the time: if both
  *  bodies are incompressible, or if (1-2nu1)/G1 = (1-2nu2)/G2. The Poisson ratio of the effective
  *  solid is the one that has its ratio of tangential to normal stiffness, 2(1-nu)/(2-nu) = G_x/E_z
  *  with 1/G_x = sum (2-nu_i)/(4 G_i) and 1/E_z = sum 1/E_i. If nu1 = nu2, it is nu1. Where that
@@ -195,9 +195,11 @@ RESTITUTE_SINCE_0_1 int restitute_material_series(const restitute_material *mate
     double *equilibrium_modulus, double *parallel_viscosity, double *relaxation_time,
     double *modulus, restitute_error *error);
 
-/** Set the window of times (s) in which the material was measured; (0, infinity) after creation. An
- *  impact in SI units whose contact time is outside of it gets the flag UNMEASURED: its result
- *  extrapolates. The material must not be in use elsewhere.
+/** Set the window of contact times (s) for which the material was measured; (0, infinity) after
+ *  creation. An impact in SI units whose contact time is outside of it gets the flag UNMEASURED: its
+ *  result extrapolates. A contact of time t is half a sine of the angular frequency pi/t: data at
+ *  frequencies omega are of contact times pi/omega, data at times t after a step of pi t. The
+ *  material must not be in use elsewhere.
  *
  *  @param shortest,longest  0 <= shortest < longest; infinity allowed
  *  @return OK, ERROR_DOMAIN, ERROR_NULL
@@ -317,6 +319,11 @@ typedef struct restitute_numbers {
     double length_z, length_x; /**< d0 and a_el, m (24) */
     double time;               /**< T = d0/v_z0, s */
     double force;              /**< m v_z0^2/d0, N */
+    double density;            /**< kg/m^3, for the wave speed: wave_density or that of the denser
+                                    sphere */
+    double dundurs_beta;       /**< of the two bodies, see @ref restitute_material_effective:
+                                    (1-2nu)/(2-2nu) where one is rigid, 0 where both are of one
+                                    material */
 } restitute_numbers;
 
 RESTITUTE_INIT(RESTITUTE_SINCE_0_1, numbers)
@@ -387,7 +394,8 @@ typedef struct restitute_options {
     double radius_limit;            /**< flag LARGE_CONTACT above this a_max/R; >= 0, default 0.1 */
     double displacement_limit;      /**< flag LONG_SLIDE above this tangential travel over a_max; >=
                                          0, default 0.3 */
-    double dundurs_limit;           /**< flag COUPLED above this |beta|; >= 0, default 0.1 */
+    double dundurs_limit;           /**< flag COUPLED above this |beta| of an impact with friction;
+                                         >= 0, default 0.1 */
 } restitute_options;
 
 RESTITUTE_INIT(RESTITUTE_SINCE_0_1, options)
@@ -413,7 +421,7 @@ RESTITUTE_SINCE_0_1 void restitute_solver_destroy(restitute_solver *solver);
     X(LONG_SLIDE, 4,                                                                               \
       "the sphere slides far during the contact: it is not axisymmetric any more")                 \
     X(COUPLED, 8,                                                                                  \
-      "the materials are elastically unlike: the model neglects that normal and tangential "       \
+      "the bodies are elastically unlike: the model neglects that normal and tangential "          \
       "problem are coupled")                                                                       \
     X(UNMEASURED, 16,                                                                              \
       "the contact time is outside the window of times in which the material was measured")
@@ -455,7 +463,8 @@ typedef struct restitute_result {
                                     impact */
     double radius_ratio;       /**< a_max/R; NaN likewise */
     double displacement_ratio; /**< |sliding speed| d_max/v_z0 over a_max; NaN likewise */
-    double dundurs_beta;       /**< of a pair of unlike materials; 0 for others */
+    double dundurs_beta;       /**< of the two bodies, as in @ref restitute_numbers; 0 for a
+                                    dimensionless impact */
     int flags;                 /**< bits of @ref restitute_flag: which of these pass the limits of
                                     the options */
     const char *method;        /**< its name; a string that lives as long as the library */

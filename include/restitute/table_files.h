@@ -34,18 +34,20 @@
  *  Where memory runs out, this library returns ERROR_MEMORY or ERROR_FILE; the behaviour of HDF5 in
  *  writing is then unspecified.
  *
- *  Schema 7. The dataset `numbers` is one compound of doubles and 64-bit integers: the range of
+ *  Schema 8. The dataset `numbers` is one compound of doubles and 64-bit integers: the range of
  *  speeds `low` and `high`; `tolerance`, `error_ez`, `error_ex`, `impacts`, `checks`,
  *  `restitute_version` (text); the contact: `chi`, `gamma`, `delta1`, `psi_factor`, `duration`,
- *  `friction`, `radius`, `mass`, `poisson_ratio`, `equilibrium_modulus`, `parallel_viscosity`; the
- *  limits `speed_limit`, `radius_limit`, `displacement_limit`; the counts `speeds`, `stick_cells`,
- *  `slip_cells`, `terms`. The others are datasets of doubles. All are little-endian, in one piece,
+ *  `friction`, `radius`, `mass`, `density`, `dundurs_beta`, `poisson_ratio`, `equilibrium_modulus`,
+ *  `parallel_viscosity`, and the window of the material, `shortest` and `longest`; the limits
+ *  `speed_limit`, `radius_limit`, `displacement_limit`, `dundurs_limit`; the counts `speeds`,
+ *  `stick_cells`, `slip_cells`, `terms`. The others are datasets of doubles. All are little-endian, in one piece,
  *  with attributes `units` and `description`:
  *
  *      speed [speeds]                                        m/s, ascending; two equal: a seam
  *      ez [speeds][2]                                        ez, d ez/ds
  *      ex [speeds][stick_cells + 1 + slip_cells + 1][4]      g, dg/ds, dg/dp, d2g/ds dp
- *      strain [speeds][3]                                    v/c_s, a_max/R, d_max/a_max
+ *      strain [speeds][4]                                    v/c_s, a_max/R, d_max/a_max, contact
+ *                                                            time (s)
  *      relaxation_time [terms], modulus [terms]              of the material, s and Pa
  *
  *  s(v) is log2(v) within 7e-7. p counts the cells of psi: psi = p/stick_cells, then t =
@@ -53,8 +55,8 @@
  *  (psi - 1)/(psi_c - 1). g is ex up to psi = 1, and psi ex - y ez beyond. Between nodes ez and g
  *  are Hermite's cubics: examples/tables/read_table.py.
  *
- *  Files of schemas 1 to 6 are refused: build the table again. Schemas 1 to 5 had tables of other
- *  kinds or another t(y). In schema 6 the numbers were attributes, which only HDF5 can read.
+ *  Files of schemas 1 to 7 are refused: build the table again. Schemas 1 to 5 had tables of other
+ *  kinds or another t(y). In schema 6 the numbers were attributes, which only HDF5 can read. Schema 7 had no contact times.
  *
  *  SPDX-License-Identifier: BSD-3-Clause
  */

@@ -8,7 +8,7 @@
 /* restitute.h */
 #define RST_LAST_impact material
 #define RST_LAST_scene wave_density
-#define RST_LAST_numbers force
+#define RST_LAST_numbers dundurs_beta
 #define RST_LAST_options dundurs_limit
 #define RST_LAST_result method
 #define RST_LAST_ledger residual_x
@@ -34,7 +34,7 @@
 #define RST_LAST_bem_snapshot stick
 
 /* files.h, fit.h */
-#define RST_LAST_material_info window
+#define RST_LAST_material_info viscosity
 #define RST_LAST_fit_point sigma_contact_time
 #define RST_LAST_fit_options interrupted_data
 #define RST_LAST_fit_result material

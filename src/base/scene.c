@@ -92,6 +92,22 @@ static void standard_numbers(const restitute_material *material, double factor, 
     n->delta2 = n->delta1 > 0 ? n->delta1 * sqrt(n->gamma) : 0;
 }
 
+/* The denser body has the slower waves. The density of a wall or of a fixed body is unknown. */
+static double wave_density(const restitute_scene *s)
+{
+    const double unit_sphere = 4.0 / 3 * 3.14159265358979323846, r1 = s->radius1, r2 = s->radius2;
+    const double first = isinf(s->mass1) ? 0 : s->mass1 / (unit_sphere * r1 * r1 * r1);
+    if (s->wave_density > 0) return s->wave_density;
+    return isinf(s->mass2) || isinf(r2) ? first : fmax(first, s->mass2 / (unit_sphere * r2 * r2 * r2));
+}
+
+/* Of both bodies, the deformable one first. A rigid partner has 1/G = 0. */
+static double dundurs_beta(const restitute_scene *s)
+{
+    const int alone = s->deformable == RESTITUTE_ONE_BODY_DEFORMS && !s->material->is_effective;
+    return alone ? (1 - 2 * s->material->nu) / (2 - 2 * s->material->nu) : s->material->beta;
+}
+
 double rst_sliding_speed(const restitute_scene *scene)
 {
     double second = isinf(scene->radius2) ? 0 : scene->radius2 * scene->spin2;
@@ -115,6 +131,8 @@ static int numbers_of(const restitute_scene *s, restitute_numbers *n, restitute_
     double sliding = rst_sliding_speed(s);
     n->psi = s->friction <= 0 ? INFINITY : rst_sliding_ratio(sliding, s->friction, s->normal_speed, nu);
     standard_numbers(s->material, pair_factor(s), n);
+    n->density = wave_density(s);
+    n->dundurs_beta = dundurs_beta(s);
     if (n->chi > rst_largest_chi && s->friction > 0)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "chi = %g: must be <= %g; check inertia", n->chi,
                           rst_largest_chi);

@@ -44,11 +44,23 @@ static int find_folder(char *folder, size_t size, restitute_error *error)
                       "the folder of the materials is not known: set the environment variable RESTITUTE_MATERIALS");
 }
 
+static int is_control(char letter)
+{
+    return (unsigned char)letter < ' ' || letter == 127;
+}
+
+static int has_controls(const char *text)
+{
+    while (*text && !is_control(*text))
+        text++;
+    return *text != '\0';
+}
+
 /* The name of a material that a file stands for; 0: it is none. */
 static int name_of_file(const char *file, char name[LONGEST_NAME])
 {
     const char *dot = strrchr(file, '.');
-    if (!dot || dot == file || strcmp(dot, ".json") != 0 || dot - file >= LONGEST_NAME) return 0;
+    if (has_controls(file) || !dot || dot == file || strcmp(dot, ".json") != 0 || dot - file >= LONGEST_NAME) return 0;
     memcpy(name, file, (size_t)(dot - file));
     name[dot - file] = '\0';
     return 1;
@@ -123,12 +135,24 @@ static const char *nearest(const struct names *names, const char *word)
     return found;
 }
 
+/* No file that is listed has such a name. */
+static int refuse_odd_name(const char *name, restitute_error *error)
+{
+    char shown[41];
+    snprintf(shown, sizeof shown, "%s", name);
+    for (char *letter = shown; *letter; letter++)
+        if (is_control(*letter)) *letter = '?';
+    return rst_report(error, RESTITUTE_ERROR_DOMAIN,
+                      "material = \"%s%s\": must have 1 to %d bytes, none of them a control character", shown,
+                      strlen(name) < sizeof shown ? "" : "..", LONGEST_NAME - 1);
+}
+
 /* As many of the known names as the message has room for. */
 static int refuse_name(const struct names *names, const char *name, restitute_error *error)
 {
     char text[sizeof error->message];
     const char *near = nearest(names, name);
-    size_t length = (size_t)snprintf(text, sizeof text, "material = \"%.40s\": %s%s%smust be one of", name,
+    size_t length = (size_t)snprintf(text, sizeof text, "material = \"%s\": %s%s%smust be one of", name,
                                      near ? "did you mean " : "", near ? near : "", near ? "? " : "");
     for (size_t i = 0; i < names->count; i++) {
         const size_t more = strlen(names->name[i]) + strlen(" ,");
@@ -147,6 +171,7 @@ int restitute_material_by_name(const char *name, restitute_material **material, 
     char folder[LONGEST_PATH], path[LONGEST_PATH + LONGEST_NAME + 8];
     struct names names;
     if (!name || !material) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", name ? "material" : "name");
+    if (strlen(name) >= LONGEST_NAME || has_controls(name)) return refuse_odd_name(name, error);
     int status = find_folder(folder, sizeof folder, error);
     if (status == RESTITUTE_OK) status = list_names(folder, &names, error);
     if (status != RESTITUTE_OK) return status;

@@ -52,7 +52,7 @@ static const struct model {
 enum { MODEL_COUNT = sizeof models / sizeof models[0], NUMBER_COUNT = sizeof number_keys / sizeof number_keys[0] };
 
 RST_DEFAULTS(material_info, .density = NAN, .temperature = NAN, .wlf_c1 = NAN, .wlf_c2 = NAN, .wlf_reference = NAN,
-             .window = {0, INFINITY})
+             .wlf_range = {-INFINITY, INFINITY}, .window = {0, INFINITY}, .viscosity = NAN)
 
 static int read_poisson_ratio(const struct json_file *file, double *poisson_ratio)
 {
@@ -313,18 +313,25 @@ int restitute_material_read(const char *path, restitute_material **material, res
                             restitute_error *error)
 {
     restitute_material_info own;
+    restitute_material *made = NULL;
     int status = RESTITUTE_OK;
     if (!path || !material) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", path ? "material" : "path");
     if (info && (status = RST_CHECK(material_info, info, error))) return status;
     restitute_material_info_init(&own);
     const char *extension = strrchr(path, '.');
     if (extension && strcasecmp(extension, ".json") == 0)
-        status = read_json_material(path, material, &own, error);
+        status = read_json_material(path, &made, &own, error);
     else if (extension && strcasecmp(extension, ".csv") == 0)
-        status = read_csv_material(path, material, &own, error);
+        status = read_csv_material(path, &made, &own, error);
     else
         status = rst_report(error, RESTITUTE_ERROR_FORMAT, "%s: a material file must end in .json or .csv",
                             rst_file_name_for_message(path));
-    if (status == RESTITUTE_OK && info) RST_GIVE(&own, info);
-    return status;
+    if (status == RESTITUTE_OK) status = rst_viscosity_of(made, &own.viscosity, error);
+    if (status != RESTITUTE_OK) {
+        restitute_material_destroy(made);
+        return status;
+    }
+    if (info) RST_GIVE(&own, info);
+    *material = made;
+    return RESTITUTE_OK;
 }

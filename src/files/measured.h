@@ -11,6 +11,9 @@
 #define RST_MEASURED_KEYS "temperature_c, wlf_.., window_s"
 int rst_is_measured_key(const char *key);
 
+/* sum G_k tau_k + eta_inf, which goes with the times of a solid. */
+int rst_viscosity_of(const restitute_material *material, double *viscosity, restitute_error *error);
+
 /* Fill temperature, wlf_* and window of `info`; what is missing stays. */
 int rst_read_measured(const struct json_file *file, restitute_material_info *info);
 

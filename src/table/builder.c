@@ -17,7 +17,8 @@ void restitute_table_options_init_sized(restitute_table_options *options, size_t
                                               .time_limit = 20,
                                               .speed_limit = core.speed_limit,
                                               .radius_limit = core.radius_limit,
-                                              .displacement_limit = core.displacement_limit};
+                                              .displacement_limit = core.displacement_limit,
+                                              .dundurs_limit = core.dundurs_limit};
     rst_init(options, size, &defaults, sizeof defaults);
 }
 
@@ -40,7 +41,8 @@ static int check_options(const restitute_table_options *o, restitute_error *erro
     int status = rst_check_range(o->tolerance, 1e-7, 0.1, "tolerance", error);
     if (!status) status = rst_check_range(o->speed_limit, 0, INFINITY, "speed_limit", error);
     if (!status) status = rst_check_range(o->radius_limit, 0, INFINITY, "radius_limit", error);
-    return status ? status : rst_check_range(o->displacement_limit, 0, INFINITY, "displacement_limit", error);
+    if (!status) status = rst_check_range(o->displacement_limit, 0, INFINITY, "displacement_limit", error);
+    return status ? status : rst_check_range(o->dundurs_limit, 0, INFINITY, "dundurs_limit", error);
 }
 
 int rst_table_take_options(const restitute_table_options *theirs, restitute_table_options *ours, restitute_error *error)
@@ -183,8 +185,8 @@ static void contact_times(const struct rst_builder *b, double times[2])
     for (int64_t i = 0; i < b->columns; i++) {
         const struct rst_column *c = &b->column[i];
         if (c->normal.sunk || c->speed < b->options.speed[0] || c->speed > b->options.speed[1]) continue;
-        times[0] = times[1] > 0 ? fmin(times[0], c->normal.contact_time) : c->normal.contact_time;
-        times[1] = fmax(times[1], c->normal.contact_time);
+        times[0] = times[1] > 0 ? fmin(times[0], c->normal.strain[3]) : c->normal.strain[3];
+        times[1] = fmax(times[1], c->normal.strain[3]);
     }
 }
 

@@ -37,12 +37,13 @@ static int collide(const restitute_table *t, restitute_table_contact *c, restitu
     if (status) return status;
     rst_part_with(*ez, *ex, &f, a, b);
     const double speed = f.approach * c->speed_factor;
+    const double factor = fmax(c->speed_factor, 1 / largest_factor); /* to divide by */
     if (speed >= t->d.low && speed <= t->d.high) return rst_done(error);
     return rst_report(
         error, RESTITUTE_OK,
-        "normal speed in the table = %g m/s (speed_factor %g of the bodies): the table has %g to %g; its end "
+        "normal speed = %g m/s: for bodies of this size the table has %g to %g m/s (its own speeds over %g); its end "
         "is taken",
-        speed, c->speed_factor, t->d.low, t->d.high);
+        f.approach, t->d.low / factor, t->d.high / factor, factor);
 }
 
 int restitute_table_collide(const restitute_table *table, const restitute_table_contact *contact, restitute_body *first,

@@ -104,11 +104,11 @@ int rst_column_normal(struct rst_column_solver *s, struct rst_column_normal *nor
     restitute_result r;
     const int status = solve(s, 0, &r, error);
     if (status < 0) return status;
-    *normal = (struct rst_column_normal){r.ez,
-                                         r.error_ez,
-                                         {r.speed_ratio, r.radius_ratio, r.max_indentation / r.max_contact_radius},
-                                         status == RESTITUTE_NO_REBOUND,
-                                         r.contact_time};
+    *normal = (struct rst_column_normal){
+        r.ez,
+        r.error_ez,
+        {r.speed_ratio, r.radius_ratio, r.max_indentation / r.max_contact_radius, r.contact_time},
+        status == RESTITUTE_NO_REBOUND};
     return RESTITUTE_OK;
 }
 

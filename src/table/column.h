@@ -11,7 +11,7 @@ struct rst_contact {
     restitute_scene scene;
     restitute_numbers numbers; /* of the scene, sliding at 1 m/s with friction 1 */
     double friction;           /* 0: none; infinity: no slip, at any speed */
-    int timeless; /* a spring or a dashpot alone: e_z does not change with speed */
+    int timeless;              /* a spring or a dashpot alone: e_z does not change with speed */
 };
 
 /* Check a scene and copy the needed values. The caller keeps the material. */
@@ -42,9 +42,8 @@ void rst_column_solver_init(const struct rst_contact *contact, const restitute_t
 /* Values that do not depend on psi. */
 struct rst_column_normal {
     double ez, error;
-    double strain[3]; /* v_z/c_s, a_max/R, d_max/a_max */
+    double strain[4]; /* v_z/c_s, a_max/R, d_max/a_max, contact time in s */
     int sunk;
-    double contact_time; /* s */
 };
 
 /* Whether e_x is 0 up to psi_c. What sinks with chi < 1/2 slides on: friction cannot stop it. */

@@ -37,6 +37,26 @@ static int find_shift(const restitute_table_data *d, const restitute_material *m
     return same;
 }
 
+/* e^x within what times a strain neither overflows nor vanishes. */
+static double bounded_exp(double x)
+{
+    const double most = 230;
+    return exp(fmax(-most, fmin(most, x)));
+}
+
+/* What strains the model over that of the table, at speeds that are `ratio`^5 of this contact's:
+ * T v is d0, a_el/R is sqrt(d0/R), and v/c_s goes with v sqrt(density/G). */
+static void set_strains(const restitute_table_data *d, const restitute_numbers *n, struct shift shift, double ratio,
+                        restitute_table_contact *found)
+{
+    const double time = log(n->time / d->duration), depth = time - 4 * log(ratio);
+    found->strain_factors[0] =
+        bounded_exp(0.5 * (log(n->density) - log(d->density) - log(shift.modulus)) - 5 * log(ratio));
+    found->strain_factors[1] = found->strain_factors[2] = bounded_exp(0.5 * (depth + log(d->radius / n->radius)));
+    found->strain_factors[3] = bounded_exp(time + log(ratio) - log(shift.time));
+    found->dundurs_beta = n->dundurs_beta;
+}
+
 /* The result depends on the relaxation times over T, and T is proportional to v^(-1/5). So a
  * contact that is f times as long is that at f^-5 times the speed. Relaxation times that are f
  * times as long have the same effect as a contact time shorter by f. */
@@ -68,6 +88,7 @@ static int bind(const restitute_table *t, const struct rst_contact *c, restitute
     found->psi_factor = rst_psi_factor(c);
     found->radius = c->numbers.radius;
     found->mass = c->numbers.mass;
+    set_strains(d, &c->numbers, shift, ratio, found);
     return RESTITUTE_OK;
 }
 

@@ -37,6 +37,10 @@ static int check_numbers(const restitute_table_data *d, restitute_error *error)
                   {"friction", d->friction, 0, INFINITY, NAN},
                   {"radius", d->radius, 0.1 * rst_sizes.low, rst_sizes.high, NAN},
                   {"mass", d->mass, 0.1 * rst_sizes.low, rst_sizes.high, NAN},
+                  {"density", d->density, 1e-250, 1e250, NAN},
+                  {"dundurs_beta", d->dundurs_beta, -0.5, 0.5, NAN},
+                  {"shortest", d->shortest, 0, INFINITY, NAN},
+                  {"longest", d->longest, 0, INFINITY, NAN},
                   {"poisson_ratio", d->poisson_ratio, 0, 0.5, NAN},
                   {"equilibrium_modulus", d->equilibrium_modulus, 0, rst_moduli.high, NAN},
                   {"parallel_viscosity", d->parallel_viscosity, 0, rst_viscosities.high, NAN}};
@@ -76,7 +80,7 @@ static int check_values(const restitute_table_data *d, restitute_error *error)
                             speed[0], speed[n - 1], d->low, d->high);
     if (!status) status = check_array(d->ez, 2 * n, -steep, steep, "ez", error);
     if (!status) status = check_array(d->ex, 4 * n * rst_places(d), -steep, steep, "ex", error);
-    if (!status) status = check_array(d->strain, 3 * n, 0, INFINITY, "strain", error);
+    if (!status) status = check_array(d->strain, 4 * n, 0, INFINITY, "strain", error);
     if (!status) status = check_array(d->modulus, d->terms, rst_moduli.low, rst_moduli.high, "modulus", error);
     if (status) return status;
     return check_array(d->relaxation_time, d->terms, rst_times.low, rst_times.high, "relaxation_time", error);
@@ -143,7 +147,7 @@ static void fill(restitute_table *t, const restitute_table_data *d, int bins)
     t->node = place(&next, NULL, n * sizeof *t->node);
     t->d.speed = place(&next, d->speed, n * size);
     t->d.ez = place(&next, d->ez, 2 * n * size);
-    t->d.strain = place(&next, d->strain, 3 * n * size);
+    t->d.strain = place(&next, d->strain, 4 * n * size);
     t->d.relaxation_time = place(&next, d->relaxation_time, terms * size);
     t->d.modulus = place(&next, d->modulus, terms * size);
     t->bin = place(&next, NULL, ((size_t)bins + 1) * sizeof *t->bin);
@@ -158,6 +162,9 @@ static void fill(restitute_table *t, const restitute_table_data *d, int bins)
     t->own.psi_factor = d->psi_factor;
     t->own.radius = d->radius;
     t->own.mass = d->mass;
+    t->own.dundurs_beta = d->dundurs_beta;
+    for (int i = 0; i < 4; i++)
+        t->own.strain_factors[i] = 1;
 }
 
 /* speed_factor = 0: not set. */
@@ -198,7 +205,7 @@ int restitute_table_create(const restitute_table_data *data, restitute_table **t
     const int bins = count_bins(&d);
     const size_t n = (size_t)d.speeds, places = (size_t)rst_places(&d);
     const size_t bytes = sizeof **table +
-                         n * (4 * places * sizeof(double) + 6 * sizeof(double) + sizeof(struct rst_node)) +
+                         n * (4 * places * sizeof(double) + 7 * sizeof(double) + sizeof(struct rst_node)) +
                          2 * (size_t)d.terms * sizeof(double) + ((size_t)bins + 1) * sizeof(uint16_t) + 10 * 16;
     restitute_table *made = malloc(bytes);
     if (!made) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the table");

@@ -6,17 +6,17 @@
 
 RST_DEFAULTS(table_info, 0)
 
-enum strain { FAST, LARGE, SLIDE };
+enum strain { FAST, LARGE, SLIDE, TIME, STRAINS };
 
 /* Lowest speed at which a ratio of the nodes exceeds its limit, linear in logarithms between them.
  * Where the sphere sinks ratios have no meaning. */
 static double from_speed(const restitute_table_data *d, enum strain which, double limit, double rebound)
 {
     for (int64_t i = 0; i < d->speeds; i++) {
-        const double here = d->strain[3 * i + which];
+        const double here = d->strain[STRAINS * i + which];
         if (d->speed[i] < rebound || !(here > limit)) continue;
         if (i == 0 || d->speed[i - 1] < rebound) return fmax(d->speed[i], d->low);
-        const double before = d->strain[3 * (i - 1) + which], ratio = d->speed[i] / d->speed[i - 1];
+        const double before = d->strain[STRAINS * (i - 1) + which], ratio = d->speed[i] / d->speed[i - 1];
         if (!(ratio > 1) || !(before > 0) || !(limit > 0) || isinf(here)) return d->speed[i];
         return d->speed[i - 1] * pow(ratio, log(limit / before) / log(here / before));
     }
@@ -65,26 +65,39 @@ int restitute_table_describe(const restitute_table *table, restitute_table_info 
     return rst_done(error);
 }
 
-int restitute_table_flags(const restitute_table *table, double normal_speed, double sliding_speed, int *flags,
-                          restitute_error *error)
+/* Numbers of a contact at a speed of its own. They are nearly powers of the speed between nodes. */
+static void strains_at(const restitute_table *table, const restitute_table_contact *c, double normal_speed,
+                       double at[STRAINS])
 {
-    if (!table || !flags) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", table ? "flags" : "table");
-    const int status = rst_check_speeds(normal_speed, sliding_speed, "", error);
-    if (status) return status;
     const restitute_table_data *d = &table->d;
-    const double v = fmin(fmax(normal_speed, d->low), d->high), place = rst_axis_place(v, NULL);
+    const double v = fmin(fmax(normal_speed * c->speed_factor, d->low), d->high), place = rst_axis_place(v, NULL);
     int64_t i = 0;
     while (i + 2 < d->speeds && d->speed[i + 1] <= v)
         i++;
     const double u = (place - table->node[i].at) * table->node[i].inverse_width;
-    double at[3];
-    for (int k = 0; k < 3; k++) {
-        const double low = d->strain[3 * i + k], high = d->strain[3 * i + 3 + k];
-        at[k] = low > 0 && high <= DBL_MAX ? low * pow(high / low, u) : fmax(low, high); /* nearly powers of v */
+    for (int k = 0; k < STRAINS; k++) {
+        const double low = d->strain[STRAINS * i + k], high = d->strain[STRAINS * (i + 1) + k];
+        const double here = low > 0 && fmax(low, high) <= DBL_MAX ? low * pow(high / low, u) : fmax(low, high);
+        at[k] = here * c->strain_factors[k];
     }
+}
+
+int restitute_table_flags(const restitute_table *table, const restitute_table_contact *contact, double normal_speed,
+                          double sliding_speed, int *flags, restitute_error *error)
+{
+    if (!table || !flags) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", table ? "flags" : "table");
+    int status = contact ? rst_check_contact(contact, error) : RESTITUTE_OK;
+    if (!status) status = rst_check_speeds(normal_speed, sliding_speed, "", error);
+    if (status) return status;
+    const restitute_table_contact *c = contact ? contact : &table->own;
+    const restitute_table_data *d = &table->d;
+    double at[STRAINS];
+    strains_at(table, c, normal_speed, at);
     const double slide = at[SLIDE] * fabs(sliding_speed);
     *flags = (at[FAST] > d->speed_limit ? RESTITUTE_FLAG_FAST : 0) |
              (at[LARGE] > d->radius_limit ? RESTITUTE_FLAG_LARGE_CONTACT : 0) |
-             (slide > d->displacement_limit * fmax(normal_speed, rst_least) ? RESTITUTE_FLAG_LONG_SLIDE : 0);
+             (slide > d->displacement_limit * fmax(normal_speed, rst_least) ? RESTITUTE_FLAG_LONG_SLIDE : 0) |
+             (c->psi_factor <= DBL_MAX && fabs(c->dundurs_beta) > d->dundurs_limit ? RESTITUTE_FLAG_COUPLED : 0) |
+             (at[TIME] < d->shortest || at[TIME] > d->longest ? RESTITUTE_FLAG_UNMEASURED : 0);
     return rst_done(error);
 }

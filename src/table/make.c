@@ -12,12 +12,12 @@ struct arrays {
 static int allocate(restitute_table_data *d, struct arrays *a)
 {
     const int64_t n = d->speeds, ex = 4 * n * rst_places(d);
-    a->block = malloc((size_t)(6 * n + ex + 2 * d->terms) * sizeof *a->block);
+    a->block = malloc((size_t)(7 * n + ex + 2 * d->terms) * sizeof *a->block);
     if (!a->block) return RESTITUTE_ERROR_MEMORY;
     d->speed = a->speed = a->block;
     d->ez = a->ez = a->speed + n;
     d->strain = a->strain = a->ez + 2 * n;
-    d->ex = a->ex = a->strain + 3 * n;
+    d->ex = a->ex = a->strain + 4 * n;
     d->relaxation_time = a->relaxation_time = a->ex + ex;
     d->modulus = a->modulus = a->relaxation_time + d->terms;
     return RESTITUTE_OK;
@@ -42,15 +42,19 @@ static void describe(const struct rst_builder *b, restitute_table_data *d)
                                 .friction = c->friction,
                                 .radius = c->numbers.radius,
                                 .mass = c->numbers.mass,
+                                .density = c->numbers.density,
+                                .dundurs_beta = c->numbers.dundurs_beta,
                                 .poisson_ratio = restitute_material_poisson_ratio(m),
                                 .speed_limit = b->options.speed_limit,
                                 .radius_limit = b->options.radius_limit,
                                 .displacement_limit = b->options.displacement_limit,
+                                .dundurs_limit = b->options.dundurs_limit,
                                 .terms = (int64_t)restitute_material_terms(m),
                                 .speeds = b->columns,
                                 .stick_cells = b->cells[0],
                                 .slip_cells = b->cells[1]};
     d->psi_factor = rst_psi_factor(c);
+    restitute_material_window(m, &d->shortest, &d->longest, NULL);
     restitute_material_series(m, &d->equilibrium_modulus, &d->parallel_viscosity, NULL, NULL, NULL);
     rst_print(d->version, sizeof d->version, "%s", restitute_version());
 }
@@ -90,7 +94,7 @@ static void fill(const struct rst_builder *b, int64_t places, const struct array
         const struct rst_column *c = &b->column[i];
         a->speed[i] = c->speed;
         a->ez[2 * i] = c->normal.ez;
-        memcpy(a->strain + 3 * i, c->normal.strain, sizeof c->normal.strain);
+        memcpy(a->strain + 4 * i, c->normal.strain, sizeof c->normal.strain);
         slopes_by_psi(c->g[0], b->cells[0], a->ex + 4 * i * places);
         slopes_by_psi(c->g[1], b->cells[1], a->ex + 4 * (i * places + b->cells[0] + 1));
     }

@@ -12,7 +12,7 @@
 #include "io/hdf5_image.h"
 
 /* Of what is written, and alone is read. */
-enum { rst_schema = 7, rst_sets = 7 };
+enum { rst_schema = 8, rst_sets = 7 };
 
 /* A new file, in memory; negative: HDF5 fails. */
 hid_t rst_container_begin(void);

@@ -1,4 +1,4 @@
-/* A table in a file: schema 7 of table_files.h.
+/* A table in a file: schema 8 of table_files.h.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stddef.h>
 #include <stdlib.h>
@@ -11,9 +11,9 @@ static const char title[] = "table";
 /* Members that are fields of the set `numbers`, in this order, before the version; 8 bytes each. */
 #define MEMBERS(X)                                                                                                     \
     X(low), X(high), X(tolerance), X(error_ez), X(error_ex), X(chi), X(gamma), X(delta1), X(psi_factor), X(duration),  \
-        X(friction), X(radius), X(mass), X(poisson_ratio), X(equilibrium_modulus), X(parallel_viscosity),              \
-        X(speed_limit), X(radius_limit), X(displacement_limit), X(impacts), X(checks), X(terms), X(speeds),            \
-        X(stick_cells), X(slip_cells)
+        X(friction), X(radius), X(mass), X(density), X(dundurs_beta), X(poisson_ratio), X(equilibrium_modulus),        \
+        X(parallel_viscosity), X(shortest), X(longest), X(speed_limit), X(radius_limit), X(displacement_limit),        \
+        X(dundurs_limit), X(impacts), X(checks), X(terms), X(speeds), X(stick_cells), X(slip_cells)
 #define NAME(member) #member
 #define AT(member) offsetof(restitute_table_data, member)
 #define IS_INTEGER(member) _Generic(((restitute_table_data *)0)->member, int64_t : 1, double : 0)
@@ -24,8 +24,9 @@ enum { fields = sizeof field_at / sizeof *field_at };
 enum { version_size = sizeof((restitute_table_data *)0)->version, numbers_size = 8 * fields + version_size };
 
 static const char units_of_numbers[] =
-    "low, high m/s; duration s (of the contact at 1 m/s); radius m; mass kg; equilibrium_modulus Pa; "
-    "parallel_viscosity Pa s; psi_factor: psi v_n/|v_t|; delta1 at 1 m/s; all others dimensionless";
+    "low, high m/s; duration s (of the contact at 1 m/s); radius m; mass kg; density kg/m^3; "
+    "equilibrium_modulus Pa; parallel_viscosity Pa s; shortest, longest s (the material's window); psi_factor: psi "
+    "v_n/|v_t|; delta1 at 1 m/s; all others dimensionless";
 
 /* The arrays: what they are, and how many values they have. */
 enum { SET_SPEED, SET_EZ, SET_STRAIN, SET_EX, SET_TIMES, SET_MODULI, SETS, SET_NUMBERS = SETS };
@@ -42,7 +43,7 @@ static void list_sets(restitute_table_data *d, struct set set[SETS])
     const struct set all[SETS] = {
         {"speed", "m/s", "normal speeds of the nodes; two that are equal are a seam", 1, {d->speeds}, &d->speed},
         {"ez", "1", "ez and d ez/ds, s(v) almost log2(v), see read_table.py", 2, {d->speeds, 2}, &d->ez},
-        {"strain", "1", "v/c_s, a_max/R, d_max/a_max", 2, {d->speeds, 3}, &d->strain},
+        {"strain", "1; s for the last", "v/c_s, a_max/R, d_max/a_max, contact time", 2, {d->speeds, 4}, &d->strain},
         {"ex",
          "1",
          "g, dg/ds, dg/dp, d2g/ds dp at psi = p/stick_cells, then at y(t), t = p/slip_cells; g = ex for psi <= 1, "

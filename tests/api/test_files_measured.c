@@ -64,6 +64,52 @@ static void the_measurement_is_read_and_shifts_with_temperature(void **state)
     restitute_material_destroy(material);
 }
 
+static void a_shift_has_a_range_of_temperatures(void **state)
+{
+    restitute_material_info info;
+    restitute_material *material, *warm = NULL;
+    restitute_error error;
+    (void)state;
+    int status = read_text(", \"temperature_c\": 20, \"wlf_range_c\": [0, 60]" WLF, &material, &info, &error);
+    CHECK(status == RESTITUTE_OK && info.wlf_range[0] == 0 && info.wlf_range[1] == 60, "%s", error.message);
+    for (int i = 0; i < 2; i++) {
+        status = restitute_material_at_temperature(material, &info, i ? 0 : 60, &warm, &error);
+        CHECK(status == RESTITUTE_OK, "%s", error.message);
+        restitute_material_destroy(warm);
+        status = restitute_material_at_temperature(material, &info, i ? -0.1 : 60.1, &warm, &error);
+        CHECK(status == RESTITUTE_ERROR_DOMAIN, "beyond the range");
+    }
+    CHECK(strcmp(error.message, "temperature = -0.1: must be in [0, 60] degrees Celsius, where the shift of n holds") ==
+              0,
+          "%s", error.message);
+    restitute_material_destroy(material);
+}
+
+/* With the info of the file the shift of a shifted solid would be counted twice. */
+static void a_shifted_solid_is_not_shifted_again(void **state)
+{
+    restitute_material_info info;
+    restitute_material *material, *warm, *again, *untouched = NULL;
+    restitute_error error;
+    (void)state;
+    CHECK(read_text(", \"temperature_c\": 20" WLF, &material, &info, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(info.viscosity == 100, "eta = %g", info.viscosity);
+    CHECK(restitute_material_at_temperature(material, &info, 40, &warm, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(restitute_material_at_temperature(warm, &info, 60, &untouched, &error) == RESTITUTE_ERROR_DOMAIN &&
+              !untouched && strstr(error.message, "but 100 in info: it was shifted already"),
+          "%s", error.message);
+    CHECK(restitute_material_at_temperature(material, &info, 60, &again, &error) == RESTITUTE_OK, "%s", error.message);
+    restitute_material_destroy(again);
+    info.viscosity = NAN; /* an info made by hand, of the warm one */
+    info.temperature = 40;
+    CHECK(restitute_material_at_temperature(warm, &info, 20, &again, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK_NEAR(restitute_material_modulus(again, 1e-4), restitute_material_modulus(material, 1e-4), 1e-4,
+               "Pa of 4e5: ten digits, there and back");
+    restitute_material_destroy(again);
+    restitute_material_destroy(warm);
+    restitute_material_destroy(material);
+}
+
 static void wrong_values_are_refused_with_their_line(void **state)
 {
     static const struct {
@@ -80,7 +126,13 @@ static void wrong_values_are_refused_with_their_line(void **state)
         {", \"temperature_c\": 1,\n\"wlf_c1\": 1", "line 4: wlf_c1 needs wlf_reference_c beside it"},
         {", \"temperature_c\": 1,\n\"wlf_c1\": 0, \"wlf_c2_k\": 2, \"wlf_reference_c\": 3", "line 4: wlf_c1 = 0: must"},
         {",\n\"temperature_c\": 1, \"wlf_c1\": 9, \"wlf_c2_k\": 2, \"wlf_reference_c\": 3",
-         "line 4: temperature_c = 1: must be above wlf_reference_c - wlf_c2_k = 1"}};
+         "line 4: temperature_c = 1: must be above wlf_reference_c - wlf_c2_k = 1"},
+        {",\n\"wlf_range_c\": [1, 2]", "line 4: wlf_range_c needs wlf_c1 beside it"},
+        {WLF ", \"temperature_c\": 1,\n\"wlf_range_c\": [2, 3]",
+         "line 4: wlf_range_c = [2, 3]: must have temperature_c = 1 in it"},
+        {WLF ", \"temperature_c\": 1,\n\"wlf_range_c\": [-300, 3]",
+         "line 4: wlf_range_c = [-300, 3]: must be finite, > -273.15 and ascending"},
+        {WLF ", \"temperature_c\": 1,\n\"wlf_range_c\": 3", "line 4: \"wlf_range_c\" must be two numbers: [.., ..]"}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         restitute_material *material = NULL;
@@ -128,6 +180,14 @@ static void unknown_names_and_folders_are_refused(void **state)
           error.message);
     CHECK(restitute_material_by_name("../x", &material, NULL, &error) == RESTITUTE_ERROR_DOMAIN, "no path");
     CHECK(strstr(error.message, "material = \"../x\": must be one of "), "%s", error.message);
+    char name[301];
+    memset(name, 'x', 300), name[300] = '\0';
+    CHECK(restitute_material_by_name(name, &material, NULL, &error) == RESTITUTE_ERROR_DOMAIN, "long");
+    CHECK(strcmp(error.message, "material = \"xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx..\": must have 1 to 63 bytes, "
+                                "none of them a control character") == 0,
+          "%s", error.message);
+    CHECK(restitute_material_by_name("st\033[2Jeel\n", &material, NULL, &error) == RESTITUTE_ERROR_DOMAIN, "escape");
+    CHECK(strstr(error.message, "material = \"st?[2Jeel?\": must have 1 to 63 bytes") != NULL, "%s", error.message);
     CHECK(restitute_material_by_name(NULL, &material, NULL, &error) == RESTITUTE_ERROR_NULL, "NULL");
     CHECK(restitute_material_by_name("steel", NULL, NULL, &error) == RESTITUTE_ERROR_NULL, "NULL");
     setenv("RESTITUTE_MATERIALS", "nowhere", 1);
@@ -146,6 +206,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_measurement_is_read_and_shifts_with_temperature),
+        cmocka_unit_test(a_shift_has_a_range_of_temperatures),
+        cmocka_unit_test(a_shifted_solid_is_not_shifted_again),
         cmocka_unit_test(wrong_values_are_refused_with_their_line),
         cmocka_unit_test(every_installed_material_is_known_by_name),
         cmocka_unit_test(unknown_names_and_folders_are_refused),

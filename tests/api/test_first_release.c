@@ -23,7 +23,7 @@
 #define CORE_STRUCTS(X)                                                                                                \
     X(impact, material, material)                                                                                      \
     X(scene, wave_density, wave_density)                                                                               \
-    X(numbers, force, force)                                                                                           \
+    X(numbers, dundurs_beta, dundurs_beta)                                                                             \
     X(options, dundurs_limit, dundurs_limit)                                                                           \
     X(result, method, method)                                                                                          \
     X(ledger, residual_x, residual_x)                                                                                  \

@@ -265,7 +265,7 @@ static void bad_speeds_are_refused(void **state)
               "%g, %g", bad[i][0], bad[i][1]);
         CHECK(ez == 5 && ex == 6, "a refused call has written");
         CHECK(strstr(error.message, name) && strstr(error.message, "1e+100"), "%s", error.message);
-        CHECK(restitute_table_flags(table, bad[i][0], bad[i][1], &flags, &error) == RESTITUTE_ERROR_DOMAIN &&
+        CHECK(restitute_table_flags(table, NULL, bad[i][0], bad[i][1], &flags, &error) == RESTITUTE_ERROR_DOMAIN &&
                   flags == 7,
               "%g, %g", bad[i][0], bad[i][1]);
     }
@@ -291,6 +291,7 @@ static void structs_of_other_sizes_are_refused(void **state)
     const void *given = place;
     const restitute_material *materials[] = {material};
     const double v = 1;
+    int flags = 7;
     double ez = 7, ex = 7;
     restitute_body ball, floor;
     restitute_table *none = NULL;
@@ -306,10 +307,11 @@ static void structs_of_other_sizes_are_refused(void **state)
     CHECK_SIZES(table_contact, touch_gap, place, &e, restitute_table_pair_many(table, given, 1, &v, &v, &ez, &ex, &e));
     CHECK_SIZES(table_contact, touch_gap, place, &e,
                 restitute_table_collide(table, given, &ball, &floor, &ez, &ex, &e));
+    CHECK_SIZES(table_contact, touch_gap, place, &e, restitute_table_flags(table, given, v, v, &flags, &e));
     CHECK_SIZES(table_info, version, place, &e, restitute_table_describe(table, (void *)place, &e));
     CHECK_SIZES(table_data, ex, place, &e, restitute_table_data_get(table, (void *)place, &e));
     CHECK_SIZES(table_data, ex, place, &e, restitute_table_create(given, &none, &e));
-    CHECK(!none && ez == 7 && ex == 7, "a refused call has written");
+    CHECK(!none && flags == 7 && ez == 7 && ex == 7, "a refused call has written");
 }
 
 /* Axes that a contact does not need are not there, and its limits are those of the impact. */

@@ -10,7 +10,9 @@ glass="--material $materials/aluminium_oxide.json --partner $materials/soda_lime
 # Dundurs' constant of the pair, by hand from the moduli in the files: 154 GPa and 0.23, 29.2 GPa
 # and 0.2.
 expect 0 pair $glass --velocity 3.9 --angle 40
-has out "Dundurs' beta          -0.263" 'passed: the materials are elastically unlike'
+has out "Dundurs' beta          -0.263" 'passed: the bodies are elastically unlike'
+expect 0 pair --material "$materials/steel.json" --radius 0.01 --friction 0.2 --velocity 0.1 --angle 30
+has out "Dundurs' beta          0.286" 'passed: the bodies are elastically unlike' # with a rigid wall
 expect 0 pair $glass --velocity 3.9 --angle 40 --dundurs-limit 0.3
 grep -q 'passed:' out && fail "a limit that can be set was passed"
 expect 0 pair $glass --velocity 3.9 --angle 40 --format json

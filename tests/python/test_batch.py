@@ -61,7 +61,7 @@ def test_a_cell_may_be_a_fraction_and_a_column_have_an_older_name(run):
     _, table, _ = run("velocity_m_s,radius1_m,angle_deg\n1/2,7/1000,30\n", "--material", "steel",
                       "--friction", "0.3")
     pair = restitute.pair("steel", density=restitute.material("steel").density, radius=0.007,
-                          speed=0.5, angle=30, friction=0.3)
+                          speed=0.5, angle=30, friction=0.3, dundurs_limit=0.5)
     assert float(table[0]["ez"]) == pair.ez and table[0]["velocity_m_s"] == "1/2"
 
 

@@ -70,7 +70,8 @@ def test_a_mass_is_a_density_and_a_material_gives_its_own():
 
 def test_materials_and_partners_broadcast_with_the_rest():
     steel = restitute.material("steel")
-    result = pair([RUBBER, steel], partner=[["rigid"], ["same"], [steel]], **BALL)
+    result = pair([RUBBER, steel], partner=[["rigid"], ["same"], [steel]], **BALL,
+                  dundurs_limit=0.5)
     assert result.shape == (3, 2) and len(result.impacts.solids) == 4
     assert result.ez[0, 0] == pair(RUBBER, **BALL).ez
     assert result.ez[1, 0] == pair(RUBBER, partner="same", **BALL).ez
@@ -185,11 +186,21 @@ def test_limits_that_are_passed_are_counted_in_one_warning_each():
 
 
 def test_package_and_library_say_alike_what_a_large_contact_costs():
-    for speed, known in (0.2, "0.02"), (1, "0.04"), (1e5, "1"):
+    elastic, smooth = Material.elastic(1e6), dict(friction=0)
+    for solid, ball, cost in (
+            (RUBBER, dict(speed=1), " (ez is known to about +-0.04, ex to +-0.5 if it sticks)"),
+            (RUBBER, dict(speed=1, **smooth), " (ez is known to about +-0.04)"),
+            (elastic, dict(speed=1), " (ex is known to about +-0.5 if it sticks)"),
+            (elastic, dict(speed=1, **smooth), ""),
+            (elastic, dict(speed=15), " (beyond 0.5 no bound of the error is known)"),
+            (RUBBER, dict(speed=1e5), " (more than the sphere: are moduli in Pa, lengths in m, "
+                                      "speeds in m/s?)")):
         with pytest.warns(ModelLimitWarning) as caught:
-            result = pair(RUBBER, **{**BALL, "speed": speed}, speed_limit=np.inf)
-        cost = f"(ez is known to about +-{known})"
-        assert str(caught[0].message).endswith(cost) and result.message().endswith(cost)
+            result = pair(solid, **{**BALL, **ball}, speed_limit=np.inf)
+        for text in (str(caught[0].message), result.message()):
+            assert text.endswith(cost) and (cost or not text.endswith(")")), text
+    with pytest.warns(ModelLimitWarning, match=r"up to 0.2\d+ \(ez is .*, ex .*sticks\)$"):
+        pair([RUBBER, elastic], **{**BALL, "speed": 1, "friction": [0, 0.3]}, speed_limit=np.inf)
 
 
 def test_a_missed_tolerance_is_a_warning():

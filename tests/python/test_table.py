@@ -75,7 +75,8 @@ def test_what_is_beyond_range_or_limits_is_counted(table):
 def test_flags_of_arrays_are_those_of_the_library(table, speeds):
     one, single = _library.ffi.new("int *"), []
     for normal, sliding in zip(*speeds):
-        _library.call(_library.table.restitute_table_flags, table._handle, normal, sliding, one)
+        _library.call(_library.table.restitute_table_flags, table._handle, _library.ffi.NULL,
+                      normal, sliding, one)
         single.append(one[0])
     flags = table.pair(*speeds, check=False).flags
     assert flags.tolist() == single
@@ -86,21 +87,50 @@ def test_other_sizes_and_frictions_are_served(rubber, table):
     scene = dict(radius=0.0007, density=1200, friction=0.6)
     contact = table.contact(**scene)
     assert contact.speed_factor == pytest.approx(0.7**-5)
-    pair = table.pair(0.1, 0.05, contact)
-    solved = restitute.pair(rubber, **scene, normal_speed=0.1, tangential_speed=0.05,
-                            method="sync", tolerance=1e-6, radius_limit=1)
+    with pytest.warns(restitute.ModelLimitWarning, match="^1 of 1 impacts: sliding distance above"):
+        pair = table.pair(0.1, 0.5, contact)
+    with pytest.warns(restitute.ModelLimitWarning, match="^sliding distance above"):
+        solved = restitute.pair(rubber, **scene, normal_speed=0.1, tangential_speed=0.5,
+                                method="sync", tolerance=1e-6)
     assert pair.ez == pytest.approx(solved.ez, abs=1.01e-4)
     assert pair.ex == pytest.approx(solved.ex, abs=1.01e-4)
-    assert pair.flags is None
+    assert pair.flags == solved.flags == 4
     given = table.contact(radius=0.0007, density=1200, friction=table.info.friction)
-    assert table.pair(0.1, 0.05, table.contact(radius=0.0007, density=1200)).ex == table.pair(
-        0.1, 0.05, given).ex
-    with pytest.warns(restitute.ModelLimitWarning, match="1 of 1 normal speeds"):
+    own = table.contact(radius=0.0007, density=1200)
+    assert table.pair(0.02, 0.01, own).ex == table.pair(0.02, 0.01, given).ex
+    # 0.01 to 1 m/s of the table's own ball, times 0.7^5
+    with pytest.warns(restitute.ModelLimitWarning, match="1 of 1 normal speeds are outside the "
+                                                         "table's range, 0.0016807 to 0.16807 m/s"):
         table.pair(0.5, 0, contact)
     with pytest.raises(restitute.DomainError, match="^material: must be"):
         table.contact(restitute.Material.elastic(1e6), **BALL)
     with pytest.raises(restitute.DomainError, match="chi = "):
         table.contact(**BALL, rotation_blocked=True)
+
+
+def test_flags_of_another_contact_are_those_of_the_library_and_of_impacts(speeds):
+    solid = restitute.Material.standard_solid(1e6, 3e6, 300.0, 0.4, window=(2e-4, 1e-3))
+    with pytest.warns(restitute.ModelLimitWarning, match="leave the window"):
+        table = restitute.Table.build(solid, **BALL, speeds=(0.01, 1), tolerance=1e-3)
+    assert table.limits[-1] == "Dundurs' |beta| 0.167 above 0.1" and table.material == solid
+    for change in {}, dict(friction=0), dict(partner="same"), dict(radius=0.0012):
+        ball = {**BALL, **change}
+        contact = table.contact(**ball)
+        ours, one, single = (one / contact.speed_factor for one in speeds), _library.ffi.new(
+            "int *"), []
+        normal, sliding = ours
+        for speed in zip(normal, sliding):
+            _library.call(_library.table.restitute_table_flags, table._handle, contact.struct,
+                          *speed, one)
+            single.append(one[0])
+        flags = table.flags(normal, sliding, contact)
+        assert flags.tolist() == single
+        assert np.all(flags & 8 == (0 if change in (dict(friction=0), dict(partner="same")) else 8))
+        with pytest.warns(restitute.ModelLimitWarning):
+            solved = restitute.pair(solid, **ball, normal_speed=normal, tangential_speed=sliding,
+                                    method="sync")
+        # But for impacts within some hundredths of a limit.
+        assert np.count_nonzero(flags != solved.flags) < 20 < np.count_nonzero(flags & 16) < 480
 
 
 def test_bodies_collide_as_by_solving(rubber, table):

@@ -13,7 +13,8 @@ from restitute import impact
 ROWS = 2000
 KNOWN = 1e-8
 PRINTED = 1e-12  # digits of e_z and e_x
-LIMITS = dict(time_limit=np.inf, max_work=np.inf)
+# The set is of the model, which does not couple normal and tangential problem.
+LIMITS = dict(time_limit=np.inf, max_work=np.inf, dundurs_limit=0.5)
 
 
 def check(is_so, message):

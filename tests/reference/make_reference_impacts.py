@@ -27,7 +27,7 @@ AGREE = 1e-8
 # ones where the solid lets them be stable.
 CVODE = ({"method": "cvode", "elements": 1024}, {"method": "cvode-adams", "elements": 1024},
          {"method": "cvode", "time_limit": 10})
-UNLIMITED = {"time_limit": np.inf, "max_work": np.inf}
+UNLIMITED = {"time_limit": np.inf, "max_work": np.inf, "dundurs_limit": 0.5}
 KINDS = {"elastic": 0.1, "standard solid": 0.25, "Kelvin-Voigt": 0.15, "Maxwell": 0.1,
          "Prony": 0.4}
 PARTNERS = {"rigid wall": 0.25, "wall": 0.15, "equal sphere": 0.3, "unlike sphere": 0.3}

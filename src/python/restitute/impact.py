@@ -136,8 +136,7 @@ class Pairs(Columns):
         ...                  speed_limit=1, radius_limit=0.2)
         >>> balls.limits()
         [('LARGE_CONTACT', 1,
-          "1 of 2 impacts: contact radius above 0.2 of the sphere's, up to 0.33
-          (ez is known to about +-0.06)")]
+          "1 of 2 impacts: contact radius above 0.2 of the sphere's, up to 0.33")]
         """
         passed, flags = [], np.ravel(self.flags)
         for bit, name, option, member, words in LIMITS:
@@ -148,10 +147,28 @@ class Pairs(Columns):
                 most = np.max(np.abs(np.ravel(getattr(self, member))[hit]))
                 text = words.format(getattr(self.settings, option))
                 worst = f"{most:.3g}"
-                if name == "LARGE_CONTACT":
-                    worst += f" ({soft_contact(most)})"
+                if name == "LARGE_CONTACT" and (cost := self.soft_contact(hit)):
+                    worst += f" ({cost})"
                 passed.append((name, int(np.sum(hit)), _of(hit, self.shape, text, worst)))
         return passed
+
+    def soft_contact(self, hit: Any = True) -> str:
+        """What the largest contact of those that are `hit` costs if the sphere is what deforms
+        (docs/soft_contacts.md), in words; empty if nothing, or no impact in SI units."""
+        if self.impacts is None or self.impacts.kind != "scene":
+            return ""
+        ratio = np.max(np.ravel(self.radius_ratio)[hit])
+        if ratio > 1:
+            return "more than the sphere: are moduli in Pa, lengths in m, speeds in m/s?"
+        if ratio > 0.5:
+            return "beyond 0.5 no bound of the error is known"
+        records = self.impacts.records[hit]
+        used = [self.impacts.solids[i].series for i in set(np.ravel(records["material"]).tolist())]
+        elastic = all(s.modulus.size == 0 and s.parallel_viscosity == 0 for s in used)  # ez = 1
+        ez, ex = ([f"ez is known to about +-{SOFT_CONTACT_ERROR * ratio:.1g}"] * (not elastic),
+                  [f"ex {'is known ' * elastic}to {'about ' * elastic}+-{1.3 * ratio**0.65:.1g} "
+                   "if it sticks"] * bool(np.any(records["friction"] > 0)))
+        return ", ".join(ez + ex)
 
     def _outside_window(self, hit):
         """Contact times outside of windows, in words."""
@@ -169,15 +186,6 @@ class Pairs(Columns):
             return f"contact time {time[0]:.3g} s is outside {where}"
         return (f"{time.size} of {hit.size} impacts: contact times from {time.min():.3g} to "
                 f"{time.max():.3g} s are outside {where}")
-
-
-def soft_contact(ratio: float) -> str:
-    """What a large ratio of contact radius to radius costs, in words.
-
-    >>> soft_contact(0.34)
-    'ez is known to about +-0.06'
-    """
-    return f"ez is known to about +-{min(SOFT_CONTACT_ERROR * ratio, 1):.1g}"
 
 
 def _of(hit, shape, text, most):

@@ -22,6 +22,9 @@ class TableContact:
         Speed in the table over speed of this contact; psi v_n/|v_t|.
     radius, mass : float
         Effective ones, m and kg.
+    strain_factors : tuple of 4 floats
+        Of what strains the model, over the table's; see `restitute_table_contact` in table.h.
+    dundurs_beta : float
     """
 
     def __init__(self, **members: Any):
@@ -50,8 +53,7 @@ class TablePairs:
 
     @property
     def flags(self) -> Any:
-        """Which limits of the model are passed (`Table.flags`); None for a contact that is not
-        the table's own."""
+        """Which limits of the model are passed (`Table.flags`); None after `Table.collide`."""
         if callable(self._flags):
             self._flags = self._flags()
         return self._flags

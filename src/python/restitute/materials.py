@@ -47,6 +47,8 @@ class Material:
     wlf : (float, float, float), or None
         c1, c2 (K) and reference temperature T0 (degrees Celsius) of the shift of times with
         temperature, log10 a_T = -c1 (T - T0)/(c2 + T - T0).
+    wlf_range : (float, float)
+        Degrees Celsius between which the shift holds; (-inf, inf) if none are given.
     parts : tuple of two Materials, or None
         Those of an effective solid.
 
@@ -66,11 +68,12 @@ class Material:
     def __init__(self, handle: Any, name: str = "", source: str = "", model: str = "",
                  density: float = math.nan, parts: tuple[Material, Material] | None = None,
                  window: tuple[float, float] | None = None, temperature: float = math.nan,
-                 wlf: tuple[float, float, float] | None = None):
+                 wlf: tuple[float, float, float] | None = None,
+                 wlf_range: tuple[float, float] = (-math.inf, math.inf)):
         self._handle = ffi.gc(handle, _library.core.restitute_material_destroy)
         self.name, self.source, self.model, self.parts = name, source, model, parts
         self.density, self.temperature = number("density", density), temperature
-        self.wlf = wlf
+        self.wlf, self.wlf_range = wlf, wlf_range
         if window is not None:
             call(_library.core.restitute_material_set_window, handle, *map(float, window))
         self.address = int(ffi.cast("uintptr_t", handle))
@@ -180,7 +183,8 @@ class Material:
         wlf = (info.wlf_c1, info.wlf_c2, info.wlf_reference)
         return cls(handle[0], _library.text(info.name), _library.text(info.source),
                    _library.text(info.model), info.density, temperature=info.temperature,
-                   wlf=None if math.isnan(info.wlf_c1) else wlf)
+                   wlf=None if math.isnan(info.wlf_c1) else wlf,
+                   wlf_range=(info.wlf_range[0], info.wlf_range[1]))
 
     @property
     def poisson_ratio(self) -> float:
@@ -194,8 +198,9 @@ class Material:
 
     @property
     def window(self) -> tuple[float, float]:
-        """The times (s) between which the material was measured; (0.0, inf) if none are given.
-        An impact whose contact time is outside of it is warned of.
+        """The contact times (s) for which the material was measured; (0.0, inf) if none are
+        given. An impact whose contact time is outside of it is warned of. Data at angular
+        frequencies omega are of contact times pi/omega.
 
         >>> Material.elastic(1e6, window=(1e-5, 1)).window
         (1e-05, 1.0)
@@ -286,13 +291,15 @@ class Material:
         info, made = _library.struct("material_info", "files"), ffi.new("restitute_material **")
         info.temperature = self.temperature
         info.wlf_c1, info.wlf_c2, info.wlf_reference = self.wlf
+        info.wlf_range, info.name = self.wlf_range, self.name.encode()[:127]
         call(_library.files.restitute_material_at_temperature, self._handle, info, temperature,
              made)
         about: dict = {**self._about(), "temperature": temperature}
         return Material(made[0], **about)
 
     def _about(self) -> dict[str, Any]:
-        names = ("name", "source", "model", "density", "temperature", "wlf")
+        names = ("name", "source", "model", "density", "temperature", "wlf",
+                 "wlf_range")
         return {name: getattr(self, name) for name in names}
 
     def _own_window(self, factor: float = 1) -> dict[str, Any]:

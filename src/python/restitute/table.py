@@ -61,7 +61,8 @@ class Table:
     def build(cls, material: Any, *, speeds: Any = (1e-4, 100.0), tolerance: float = 1e-5,
               threads: int = 1, max_impacts: int | None = None, time_limit: float | None = None,
               speed_limit: float | None = None, radius_limit: float | None = None,
-              displacement_limit: float | None = None, **contact: Any) -> Table:
+              displacement_limit: float | None = None, dundurs_limit: float | None = None,
+              **contact: Any) -> Table:
         """Build a table of one contact: hundredths of a second to seconds.
 
         Parameters
@@ -75,7 +76,7 @@ class Table:
             The table has the same bits for any; 0: as many as there are.
         max_impacts, time_limit : int and float (s), optional
             Refinement ends at 0.8 of them; default 12000 and 20. inf: no limit of time.
-        speed_limit, radius_limit, displacement_limit : float, optional
+        speed_limit, radius_limit, displacement_limit, dundurs_limit : float, optional
             Limits of the model.
         **contact
             As in `pair`: `radius`, `density` or `mass`, `friction`, `radius2`, `partner`, ...
@@ -96,7 +97,8 @@ class Table:
         """
         given = {"threads": threads, "tolerance": tolerance, "max_impacts": max_impacts,
                  "time_limit": time_limit, "speed_limit": speed_limit,
-                 "radius_limit": radius_limit, "displacement_limit": displacement_limit}
+                 "radius_limit": radius_limit, "displacement_limit": displacement_limit,
+                 "dundurs_limit": dundurs_limit}
         options = _library.struct("table_options", "table", **{
             name: value for name, value in given.items() if value is not None})
         options.speed = fit_shape("speeds", numbers("speeds", speeds), (2,)).tolist()
@@ -144,14 +146,14 @@ class Table:
     @property
     def data(self) -> dict[str, Any]:
         """All numbers of the table, the members of the library's `restitute_table_data`: `speed`
-        (n,), `ez` (n, 2), `ex` (n, places of psi, 4), `strain` (n, 3), ..."""
+        (n,), `ez` (n, 2), `ex` (n, places of psi, 4), `strain` (n, 4), ..."""
         if not self._data:
             struct = _library.struct("table_data", "table")
             call(_library.table.restitute_table_data_get, self._handle, struct)
             n, places = struct.speeds, struct.stick_cells + struct.slip_cells + 2
             shapes: dict[str, tuple[int, ...]] = {
                 "relaxation_time": (struct.terms,), "modulus": (struct.terms,), "speed": (n,),
-                "ez": (n, 2), "strain": (n, 3), "ex": (n, places, 4)}
+                "ez": (n, 2), "strain": (n, 4), "ex": (n, places, 4)}
             self._data = _library.members(struct)
             for name, shape in shapes.items():
                 values = np.empty(shape)
@@ -172,15 +174,20 @@ class Table:
         """The solid that the table is for."""
         names = ("relaxation_time", "modulus", "equilibrium_modulus", "parallel_viscosity",
                  "poisson_ratio")
-        return Material.prony(*(self.data[name] for name in names))
+        window = self.data["shortest"], self.data["longest"]
+        return Material.prony(*(self.data[name] for name in names),
+                              window=window if window[0] < window[1] else None)
 
     @property
     def limits(self) -> list[str]:
         """Which limits of the model are passed, and from which speed on, in words."""
         rebound = self.info.rebound_speed
         words = [f"no rebound up to {rebound:.4g} m/s"] if rebound > 0 else []
-        return words + [text.format(getattr(self.info, name)) for name, text in _FROM
-                        if np.isfinite(getattr(self.info, name))]
+        words += [text.format(getattr(self.info, name)) for name, text in _FROM
+                  if np.isfinite(getattr(self.info, name))]
+        beta, limit = abs(self.data["dundurs_beta"]), self.data["dundurs_limit"]
+        coupled = beta > limit and self.info.friction > 0
+        return words + [f"Dundurs' |beta| {beta:.3g} above {limit:g}"] * coupled
 
     def contact(self, material: Any = None, *, touch_gap: float = 1e-6,
                 **contact: Any) -> TableContact:
@@ -238,7 +245,7 @@ class Table:
         if check:
             self._warn(normal, sliding, contact)
         return TablePairs(ez.reshape(shape)[()], ex.reshape(shape)[()],
-                          None if contact else partial(self.flags, normal_speed, sliding_speed))
+                          partial(self.flags, normal_speed, sliding_speed, contact))
 
     def collide(self, first: Body, second: Body,
                 contact: TableContact | None = None) -> tuple[Body, Body, TablePairs]:
@@ -288,8 +295,9 @@ class Table:
             return np.zeros(speed.shape, bool)[()]
         return (speed < low) | (speed > high)
 
-    def flags(self, normal_speed: Any, sliding_speed: Any = 0.0) -> Any:
-        """Which limits of the model impacts of the table's own contact pass.
+    def flags(self, normal_speed: Any, sliding_speed: Any = 0.0,
+              contact: TableContact | None = None) -> Any:
+        """Which limits of the model impacts pass: of the table's own contact, or of another one.
 
         Returns
         -------
@@ -298,32 +306,36 @@ class Table:
         """
         data, (normal, sliding, shape) = self.data, _speeds(normal_speed, sliding_speed)
         nodes, strain = data["speed"], data["strain"]
-        place = np.clip(normal, data["low"], data["high"])
+        of = contact or SimpleNamespace(**data, speed_factor=1, strain_factors=np.ones(4))
+        coupled = of.psi_factor < np.inf and abs(of.dundurs_beta) > data["dundurs_limit"]
+        place = np.clip(normal * of.speed_factor, data["low"], data["high"])
         i = np.clip(np.searchsorted(nodes, place, "right") - 1, 0, len(nodes) - 2)
         with np.errstate(all="ignore"):  # ratios are powers of the speed between nodes
             u = np.log(place / nodes[i]) / np.log(nodes[i + 1] / nodes[i])
             low, high = strain[i].T, strain[i + 1].T
-            powers = (low > 0) & np.isfinite(high)
+            powers = (low > 0) & np.isfinite(low) & np.isfinite(high)
             at = np.where(powers, low * (high / low) ** u, np.maximum(low, high))
+            at *= np.array([*of.strain_factors])[:, None]
             passed = (at[0] > data["speed_limit"], at[1] > data["radius_limit"],
-                      at[2] * np.abs(sliding) > data["displacement_limit"] * normal)
+                      at[2] * np.abs(sliding) > data["displacement_limit"] * normal,
+                      np.full(normal.shape, coupled),
+                      (at[3] < data["shortest"]) | (at[3] > data["longest"]))
         return sum(bit * hit for (bit, *_), hit in zip(LIMITS, passed)).reshape(shape)[()]
 
     def _warn(self, normal, sliding, contact):
         outside = int(np.count_nonzero(self.beyond(normal, contact)))
         if outside:
-            low, high = self.speed
+            low, high = (end / (contact.speed_factor if contact else 1) for end in self.speed)
             _library.warn(f"{outside} of {normal.size} normal speeds are outside the table's "
                           f"range, {low:.6g} to {high:.6g} m/s, whose ends are taken",
                           errors.ModelLimitWarning)
-        if contact:
-            return  # the table knows the limits of its own contact alone
-        flags = self.flags(normal, sliding)
+        flags = self.flags(normal, sliding, contact)
         for bit, _, option, _, words in LIMITS:
             count = int(np.count_nonzero(flags & bit))
             if count:
-                _library.warn(f"{count} of {flags.size} impacts: "
-                              f"{words.format(self.data[option])}", errors.ModelLimitWarning)
+                limit = self.data[option] if option else 0
+                _library.warn(f"{count} of {flags.size} impacts: {words.format(limit)}",
+                              errors.ModelLimitWarning)
 
     def __repr__(self):
         low, high = self.speed

@@ -52,7 +52,7 @@ static void look_up(const restitute_table *table, const restitute_material *mate
     first->velocity[0] = 0.1, first->velocity[2] = -0.2;
     DONE(restitute_table_collide(table, contact, first, second, ez, ex, &error));
     SHOW(ez[0], ex[0], first->velocity[0], first->velocity[2], first->spin[1]);
-    DONE(restitute_table_flags(table, 0.1, 0.05, &flags, &error));
+    DONE(restitute_table_flags(table, contact, 0.1, 0.05, &flags, &error));
     SHOW(flags);
 }
 

@@ -55,7 +55,8 @@ program consumer_table
   status = restitute_table_pair_many(table, normal_speeds=speeds, sliding_speeds=slides(:2), error=error)
   good = good .and. status == RESTITUTE_ERROR_DOMAIN
   good = good .and. restitute_message(error) == "sliding_speeds: must have as many values as normal_speeds, 3; has 2"
-  good = good .and. restitute_table_flags(table, 10.0_rk, 0.0_rk, flags, error) == RESTITUTE_OK
+  good = good .and. restitute_table_flags(table, normal_speed=10.0_rk, sliding_speed=0.0_rk, flags=flags) == 0
+  good = good .and. restitute_table_flags(table, small, 10.0_rk, 0.0_rk, flags, error) == RESTITUTE_OK
   good = good .and. iand(flags, RESTITUTE_FLAG_LARGE_CONTACT) /= 0
 
   ball = restitute_body()

@@ -12,11 +12,11 @@ At another temperature, and the material file of it:
       --speed 0.1
   restitute materials polyisobutylene --temperature 40 --format json >pib40.json
 
-The moduli are shear moduli: at once, and after infinite time. The window is that of the times in
-which the material was measured: an impact that takes longer or shorter is flagged. Temperatures
-are those of the constants, and from which on they can be shifted.
+The moduli are shear moduli: at once, and after infinite time. The window is that of the contact
+times for which the material was measured: an impact that takes longer or shorter is flagged.
+Temperatures are those of the constants, and between which they can be shifted.
 """
-_COLUMNS = "{:16} {:14} {:>6} {:>5} {:>9} {:>9}  {:19} {:12}  {}"
+_COLUMNS = "{:16} {:14} {:>6} {:>5} {:>9} {:>9}  {:19} {:15}  {}"
 
 
 def add(subparsers):
@@ -99,6 +99,9 @@ def _temperature(material, word):
         return "-"
     if not material.wlf:
         return f"{material.temperature:g}"
+    low, high = material.wlf_range
+    if high < float("inf"):
+        return f"{material.temperature:g} ({low:g} to {high:g})"
     _, c2, reference = material.wlf
     return f"{material.temperature:g} ({word}{reference - c2:.0f})"
 
@@ -108,7 +111,7 @@ def _given(text, unit):
 
 
 def _figure(material):
-    """G(t), G'(omega) and G''(omega) with the window of times."""
+    """G(t), G'(omega) and G''(omega) with the window, a contact of time t being at pi/t."""
     import numpy as np
 
     from restitute import plot
@@ -122,8 +125,8 @@ def _figure(material):
     plot.relaxation(material, time, ax=ax[0])
     plot.moduli(material, 1 / time, ax=ax[1])
     if high < np.inf:
-        ax[0].axvspan(low, high, color="#dfe8f0", zorder=0, label="measured")
-        ax[1].axvspan(1 / high, 1 / low, color="#dfe8f0", zorder=0, label="measured")
+        ax[0].axvspan(low / np.pi, high / np.pi, color="#dfe8f0", zorder=0, label="measured")
+        ax[1].axvspan(np.pi / high, np.pi / low, color="#dfe8f0", zorder=0, label="measured")
     ax[0].get_legend().remove()
     soft = material.relaxation_modulus(time[-1])
     ax[0].set_ylim(bottom=max(soft, 1e-5 * material.relaxation_modulus(time[0])) / 2)
@@ -156,6 +159,8 @@ def _file(material):
         content["temperature_c"] = material.temperature
     if material.wlf:
         content.update(zip(("wlf_c1", "wlf_c2_k", "wlf_reference_c"), material.wlf))
+        if material.wlf_range[1] < float("inf"):
+            content["wlf_range_c"] = material.wlf_range
     if material.window[1] < float("inf"):
         content["window_s"] = material.window
     if len(series.modulus):

@@ -163,7 +163,7 @@ def _lengths(impact, result, numbers):
 
 def _limits(impact, result):
     """How far the scene strains the model, and what of it passes a limit, in words."""
-    from restitute.impact import LIMITS, soft_contact
+    from restitute.impact import LIMITS
 
     if impact.kind != "scene":
         return
@@ -172,7 +172,8 @@ def _limits(impact, result):
     for label, (flag, _, option, member, _) in zip(labels, LIMITS):
         limit = getattr(result.settings, option)
         yield f"  {label:22} {getattr(result, member):<12.3g} (limit {limit:g})"
-        cost = f": {soft_contact(result.radius_ratio)}" if member == "radius_ratio" else ""
+        cost = result.soft_contact() if member == "radius_ratio" else ""
+        cost = f": {cost}" if cost else ""
         yield from (f"    passed: {text}{cost}" for text in _flags(result.flags & flag))
     low, high = impact.solids[0].window
     if high < float("inf"):

@@ -38,10 +38,15 @@ typedef struct restitute_material_info {
                              file gives none */
     double wlf_c1, wlf_c2, wlf_reference; /**< "wlf_c1", "wlf_c2_k" (K), "wlf_reference_c" (degrees
                              Celsius); NaN likewise. log10 a_T = -c1 (T - T0)/(c2 + T - T0) */
-    double window[2];   /**< "window_s": the times in which it was measured; (0, infinity) likewise */
+    double wlf_range[2]; /**< "wlf_range_c": degrees Celsius between which the shift holds;
+                              (-infinity, infinity) if the file gives none */
+    double window[2];    /**< "window_s": of @ref restitute_material_set_window; (0, infinity)
+                              likewise */
+    double viscosity;    /**< sum G_k tau_k + eta_inf of the solid as it was read, Pa s: it tells
+                              whether its times were shifted since */
 } restitute_material_info;
 
-/** Prepare with empty texts, window (0, infinity) and all else NaN. */
+/** Prepare with empty texts, window (0, infinity), no limits of the shift and all else NaN. */
 RESTITUTE_INIT(RESTITUTE_SINCE_0_1, material_info)
 
 /** Read a material, by the extension of the file.
@@ -55,6 +60,7 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, material_info)
  *      poisson_ratio  required, in [0, 0.5]                   density_kg_m3  > 0
  *      temperature_c  that of the constants, > -273.15        window_s       [shortest, longest], > 0
  *      wlf_c1, wlf_c2_k, wlf_reference_c                      all or none, beside temperature_c
+ *      wlf_range_c    [lowest, highest], beside wlf_c1; temperature_c is in it
  *      model          required; it decides which further keys are required:
  *        elastic         modulus_pa
  *        standard_solid  modulus1_pa, modulus2_pa, viscosity_pa_s
@@ -100,11 +106,12 @@ RESTITUTE_SINCE_0_1 int restitute_material_by_name(const char *name, restitute_m
 /** A material at another temperature than that of its constants, by the equation of Williams,
  *  Landel and Ferry: times, viscosities and window times a_T(temperature)/a_T(info->temperature).
  *
+ *  @param material     as it was read: one that was shifted since is refused
  *  @param info         of the material, from @ref restitute_material_read or by name
- *  @param temperature  degrees Celsius, above wlf_reference - wlf_c2
+ *  @param temperature  degrees Celsius, in wlf_range and above wlf_reference - wlf_c2
  *  @param shifted      the new material
  *  @return ERROR_DOMAIN also where the file has no constants for the shift; what @ref
- *          restitute_material_shifted returns; ERROR_STRUCT_SIZE
+ *          restitute_material_shifted returns; ERROR_STRUCT_SIZE, ERROR_MEMORY
  *
  *      restitute_material_at_temperature(rubber, &info, 40, &warm_rubber, &error); */
 RESTITUTE_SINCE_0_1 int restitute_material_at_temperature(const restitute_material *material,

@@ -68,7 +68,7 @@ typedef struct restitute_table_options {
                               0, default 20; infinity: no limit. A table that it ends depends on the
                               machine. Its stated errors hold */
     /** as in @ref restitute_options, with the same defaults */
-    double speed_limit, radius_limit, displacement_limit;
+    double speed_limit, radius_limit, displacement_limit, dundurs_limit;
     /** asked at every speed before its impacts are solved, from any thread of the build; nonzero
      *  ends the call with ERROR_INTERRUPTED. NULL (default): nobody is asked */
     int (*interrupted)(void *data);
@@ -132,6 +132,10 @@ typedef struct restitute_table_contact {
                               refused */
     double psi_factor;   /**< psi v_n/|v_t| (22); 0: no slip, infinity: no friction */
     double radius, mass; /**< m, kg: effective ones (docs/theory.md, section 10) of this contact */
+    double strain_factors[4]; /**< of this contact over the table's, at the speed in the table: of
+                                   v_z/c_s, a_max/R, d_max/a_max, and of the contact time over the
+                                   relaxation times */
+    double dundurs_beta; /**< of this contact */
     double touch_gap;    /**< as in @ref restitute_collision; default 1e-6 */
 } restitute_table_contact;
 
@@ -202,13 +206,19 @@ RESTITUTE_SINCE_0_1 int restitute_table_collide(const restitute_table *table,
     const restitute_table_contact *contact, restitute_body *first, restitute_body *second,
     double *ez, double *ex, restitute_error *error);
 
-/** Which limits of the model an impact of the table's own contact passes.
+/** Which limits of the model an impact passes: the flags of a solver's @ref restitute_result, but
+ *  within some hundredths of a limit, since ratios between nodes are interpolated.
  *
- *  @param flags  bits of @ref restitute_flag (FAST, LARGE_CONTACT, LONG_SLIDE), by the limits of
- *                the options the table was built with. Outside the table's range those of its ends
- *  @return OK; ERROR_DOMAIN for a speed out of its range; ERROR_NULL */
-RESTITUTE_SINCE_0_1 int restitute_table_flags(const restitute_table *table, double normal_speed,
-    double sliding_speed, int *flags, restitute_error *error);
+ *  @param contact        NULL: the table's own
+ *  @param flags          bits of @ref restitute_flag, by the limits of the options the table was
+ *                        built with and the window of its material, which shifts with its times.
+ *                        Outside the table's range those of its ends
+ *  @return OK; ERROR_DOMAIN for a speed out of its range; ERROR_NULL, ERROR_STRUCT_SIZE
+ *
+ *      restitute_table_flags(table, &small, 0.5, -0.2, &flags, &error); */
+RESTITUTE_SINCE_0_1 int restitute_table_flags(const restitute_table *table,
+    const restitute_table_contact *contact, double normal_speed, double sliding_speed, int *flags,
+    restitute_error *error);
 
 /* ------------------------------------------------------------------------------ what a table is */
 
@@ -270,14 +280,18 @@ typedef struct restitute_table_data {
     double duration;                         /**< T at 1 m/s, s (22) */
     double friction, radius, mass;           /**< m, kg: effective */
     double poisson_ratio, equilibrium_modulus, parallel_viscosity;
-    double speed_limit, radius_limit, displacement_limit; /**< see @ref restitute_options */
+    double density, dundurs_beta;            /**< see @ref restitute_numbers */
+    double shortest, longest;                /**< s, the window of the material */
+    double speed_limit, radius_limit, displacement_limit, dundurs_limit; /**< see @ref
+                                                  restitute_options */
     int64_t terms;                           /**< in [0, 1e6] */
 
     int64_t speeds, stick_cells, slip_cells;
     const double *relaxation_time, *modulus; /**< [terms]; s, Pa */
     const double *speed;                     /**< [speeds], m/s, ascending */
     const double *ez;                        /**< [speeds][2]: e_z, de_z/ds */
-    const double *strain;                    /**< [speeds][3]: v_z/c_s, a_max/R, d_max/a_max */
+    const double *strain;                    /**< [speeds][4]: v_z/c_s, a_max/R, d_max/a_max,
+                                                  contact time, s */
     const double *ex;                        /**< [speeds][stick_cells + 1 + slip_cells + 1][4]: g,
                                                   dg/ds, dg/dp, d2g/ds dp; p counts cells of psi */
 } restitute_table_data;
