@@ -56,7 +56,7 @@ int restitute_table_collide(const restitute_table *table, const restitute_table_
                           : !first ? "first"
                                    : "second");
     restitute_table_contact c = table->own;
-    int status = contact ? rst_check_contact(contact, error) : RESTITUTE_OK;
+    int status = contact ? rst_check_other_contact(contact, error) : RESTITUTE_OK;
     if (!status && contact) status = RST_TAKE(table_contact, &c, contact, error);
     if (status) return status;
     status = rst_check_range(c.touch_gap, 0, 1, "touch_gap", error);

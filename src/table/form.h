@@ -62,7 +62,7 @@ static inline int64_t rst_places(const restitute_table_data *d)
 void rst_table_evaluate(const restitute_table *table, double speed, double sliding, double v_n, double *ez, double *ex);
 
 /* The contact that a call is about, which is one of a table; NULL: the table's own. */
-int rst_check_contact(const restitute_table_contact *contact, restitute_error *error);
+int rst_check_other_contact(const restitute_table_contact *contact, restitute_error *error);
 
 /* The speeds that are looked up are in their ranges; `place` is "" or "s[i]" of many. */
 int rst_check_speeds(double normal, double sliding, const char *place, restitute_error *error);

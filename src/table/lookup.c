@@ -198,7 +198,7 @@ static inline int good_contact(const restitute_table_contact *c)
     return RST_IS_SIZED(table_contact, c) && c->psi_factor >= 0 && c->speed_factor > 0;
 }
 
-int rst_check_contact(const restitute_table_contact *contact, restitute_error *error)
+int rst_check_other_contact(const restitute_table_contact *contact, restitute_error *error)
 {
     const int status = RST_CHECK(table_contact, contact, error);
     if (status || good_contact(contact)) return status;
@@ -221,7 +221,7 @@ int rst_check_speeds(double normal, double sliding, const char *place, restitute
 
 COLD int refuse(const restitute_table_contact *c, double v_n, double v_t, restitute_error *error)
 {
-    const int status = rst_check_contact(c, error);
+    const int status = rst_check_other_contact(c, error);
     return status ? status : rst_check_speeds(v_n, v_t, "", error);
 }
 
@@ -266,7 +266,7 @@ int restitute_table_pair_many(const restitute_table *table, const restitute_tabl
                           : !normal_speeds ? "normal_speeds"
                                            : "sliding_speeds");
     restitute_table_contact c = table->own;
-    int status = contact ? rst_check_contact(contact, error) : RESTITUTE_OK;
+    int status = contact ? rst_check_other_contact(contact, error) : RESTITUTE_OK;
     if (!status && contact) status = RST_TAKE(table_contact, &c, contact, error);
     if (!status) status = check_many(n, normal_speeds, sliding_speeds, error);
     if (status) return status;

@@ -174,7 +174,7 @@ static void compare(struct campaign *c, const struct drawn_case *d, int k, const
     a->compared++;
     a->low += ratio > 1;
     a->far += ratio > 10;
-    if (ratio > 10) {
+    if (ratio > 10 && fmax(z, x) > d->tolerance) { /* wrong, and nothing says so */
         fault("ez %.9g ex %.9g, estimates %.2g %.2g; second method %.9g %.9g, %.2g %.2g: %.3g times", r->ez, r->ex,
               r->error_ez, r->error_ex, other.ez, other.ex, other.error_ez, other.error_ex, ratio);
         if (faults <= shown_faults) print_case(d);

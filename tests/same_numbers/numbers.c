@@ -1,0 +1,235 @@
+/* Numbers of every component that is linked, one a line, in full: to be compared between compilers,
+ * their options and machines (compare.py). Within one program all ways to a number give its bits:
+ * single calls, batches of any size, any number of threads. Exit status 1: they do not.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <restitute/restitute.h>
+#ifdef WITH_BEM
+#include <restitute/bem.h>
+#endif
+#ifdef WITH_CONTACT
+#include <restitute/contact.h>
+#endif
+#ifdef WITH_CVODE
+#include <restitute/cvode.h>
+#endif
+#ifdef WITH_FILES
+#include <restitute/files.h>
+#endif
+#ifdef WITH_FIT
+#include <restitute/fit.h>
+#endif
+#ifdef WITH_TABLE
+#include <restitute/table.h>
+#endif
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../support/random.h"
+
+enum { impacts = 200 };
+static int wrong;
+
+static void print(const char *name, int i, double value)
+{
+    printf("%s %d %.17g\n", name, i, value);
+}
+
+static void expect_same(const void *a, const void *b, size_t size, const char *what)
+{
+    if (memcmp(a, b, size) == 0) return;
+    fprintf(stderr, "numbers: %s: other bits\n", what);
+    wrong = 1;
+}
+
+static restitute_impact impact_of(int i, const restitute_material *prony)
+{
+    uint64_t random = (uint64_t)i;
+    restitute_impact impact;
+    restitute_impact_init(&impact);
+    impact.chi = 0.34 + 3 * random_in(&random, 0, 1), impact.psi = pow(10, random_in(&random, -2, 1));
+    impact.delta1 = pow(10, random_in(&random, -3, 1)), impact.gamma = pow(10, random_in(&random, -2, 2));
+    if (i % 5 == 0) impact.gamma = 0;
+    if (i % 5 == 1) impact.material = prony;
+    return impact;
+}
+
+static void solve(const char *name, const restitute_method *method, int n, double tolerance,
+                  const restitute_material *prony)
+{
+    static restitute_impact list[impacts];
+    static restitute_result single[impacts], many[impacts];
+    restitute_options options;
+    restitute_solver *solver;
+    restitute_options_init(&options);
+    options.method = method, options.tolerance = tolerance, options.time_limit = INFINITY;
+    if (restitute_solver_create(&options, &solver, NULL) < 0) exit(2);
+    memset(single, 0, sizeof single), memset(many, 0, sizeof many); /* holes of the structs, too */
+    for (int i = 0; i < n; i++) {
+        list[i] = impact_of(i, prony);
+        restitute_result_init(&single[i]);
+        restitute_solve(solver, &list[i], &single[i], NULL, NULL, NULL);
+        print(name, 2 * i, single[i].ez), print(name, 2 * i + 1, single[i].ex);
+    }
+    restitute_solver_destroy(solver);
+    for (int threads = 1; threads <= 3; threads++)
+        for (int size = 1; size <= n; size = size < 8 ? size + 3 : n + (size == n)) {
+            options.threads = threads;
+            for (int i = 0; i < n; i++)
+                restitute_result_init(&many[i]);
+            for (int i = 0; i < n; i += size)
+                restitute_solve_many((size_t)(n - i < size ? n - i : size), list + i, &options, many + i, NULL, NULL);
+            expect_same(single, many, sizeof single, name);
+        }
+}
+
+#ifdef WITH_CONTACT
+/* 37 contacts, alone and in batches of 1 to 37. */
+static void contacts(const restitute_material *prony)
+{
+    enum { n = 37, most = 200 };
+    static double alone[n][most], batch[n][most], *states[n];
+    restitute_contact_force force[n], forces[n];
+    restitute_contact_motion motion[n];
+    restitute_contact_law *law;
+    restitute_contact_rates rates;
+    if (restitute_contact_law_create(prony, NULL, &law, NULL) < 0 || restitute_contact_law_state_size(law) > most)
+        exit(2);
+    for (int size = 1; size <= n; size += 4) {
+        uint64_t random = 1;
+        memset(alone, 0, sizeof alone), memset(batch, 0, sizeof batch);
+        restitute_contact_rates_init(&rates);
+        restitute_contact_rates_set(law, 0.01, &rates, NULL);
+        for (int i = 0; i < n; i++) {
+            restitute_contact_motion_init(&motion[i]);
+            motion[i].radius = 1, motion[i].friction = 0.3, states[i] = batch[i];
+        }
+        for (int step = 0; step < 200; step++) {
+            for (int i = 0; i < n; i++) {
+                motion[i].velocity[2] = 1e-3 * (cos(0.02 * step) + 0.1 * random_in(&random, -1, 1));
+                motion[i].velocity[0] = 1e-3 * random_in(&random, -1, 2);
+                motion[i].overlap += 0.01 * motion[i].velocity[2];
+                restitute_contact_step(law, &rates, &motion[i], alone[i], &force[i], NULL);
+            }
+            for (int i = 0; i < n; i += size)
+                restitute_contact_step_many(law, &rates, (size_t)(n - i < size ? n - i : size), motion + i, states + i,
+                                            forces + i, NULL, NULL);
+        }
+        for (int i = 0; i < n; i++) { /* without the sign of a zero */
+            for (int k = 0; k < most; k++)
+                alone[i][k] += 0., batch[i][k] += 0.;
+            expect_same(alone[i], batch[i], sizeof alone[i], "contact");
+            if (size == 1)
+                print("contact", 2 * i, force[i].normal), print("contact", 2 * i + 1, force[i].tangential[0]);
+        }
+    }
+    restitute_contact_law_destroy(law);
+}
+#endif
+
+#if defined(WITH_TABLE) || defined(WITH_FIT)
+static restitute_scene ball(const restitute_material *material)
+{
+    restitute_scene scene;
+    restitute_scene_init(&scene);
+    scene.material = material;
+    scene.radius1 = 0.005, scene.mass1 = 0.004, scene.friction = 0.3, scene.normal_speed = 0.1;
+    return scene;
+}
+#endif
+
+#ifdef WITH_TABLE
+static void tables(void)
+{
+    enum { n = 1000 };
+    static double v[n], u[n], ez[3][n], ex[3][n];
+    uint64_t random = 3;
+    restitute_material *rubber;
+    restitute_table_options options;
+    restitute_material_standard_solid(1e6, 1e6, 300, 0.5, &rubber, NULL);
+    const restitute_scene scene = ball(rubber);
+    restitute_table_options_init(&options);
+    options.tolerance = 1e-4, options.time_limit = INFINITY;
+    for (int i = 0; i < n; i++)
+        v[i] = pow(10, random_in(&random, -5, 3)), u[i] = v[i] * pow(10, random_in(&random, -3, 1));
+    for (options.threads = 1; options.threads <= 3; options.threads++) {
+        restitute_table *table;
+        const int k = options.threads - 1;
+        if (restitute_table_build(&scene, &options, &table, NULL) < 0) exit(2);
+        if (k == 0)
+            for (int i = 0; i < n; i++)
+                restitute_table_pair(table, NULL, v[i], u[i], &ez[k][i], &ex[k][i], NULL);
+        else
+            for (int i = 0, size = 1; i < n; i += size, size = 1 + size % 40)
+                restitute_table_pair_many(table, NULL, (size_t)(n - i < size ? n - i : size), v + i, u + i, &ez[k][i],
+                                          &ex[k][i], NULL);
+        restitute_table_destroy(table);
+        expect_same(ez[0], ez[k], sizeof ez[0], "table"), expect_same(ex[0], ex[k], sizeof ex[0], "table");
+    }
+    for (int i = 0; i < n; i++)
+        print("table", 2 * i, ez[0][i]), print("table", 2 * i + 1, ex[0][i]);
+    restitute_material_destroy(rubber);
+}
+#endif
+
+#ifdef WITH_FIT
+static void fit(void)
+{
+    enum { n = 12 };
+    restitute_material *rubber;
+    restitute_fit_point points[n];
+    restitute_scene scenes[n];
+    restitute_material_standard_solid(1e6, 2e6, 300, 0.5, &rubber, NULL);
+    for (int i = 0; i < n; i++) {
+        double ex;
+        scenes[i] = ball(rubber), scenes[i].normal_speed = pow(10, -2 + 0.25 * i);
+        restitute_fit_point_init(&points[i]);
+        if (restitute_scene_pair(&scenes[i], &points[i].ez, &ex, NULL) < 0) exit(2);
+        scenes[i].material = NULL, points[i].scene = &scenes[i];
+    }
+    points[0].contact_time = 0.02;
+    restitute_fit_result result;
+    restitute_fit_result_init(&result);
+    if (restitute_fit(n, points, NULL, &result, NULL) < 0) exit(2);
+    for (size_t i = 0; i < result.constants; i++)
+        print("fit", (int)i, result.value[i]);
+    restitute_material_destroy(result.material);
+    restitute_material_destroy(rubber);
+}
+#endif
+
+int main(int argc, char **argv)
+{
+    const double tau[] = {0.05, 0.4, 3}, g[] = {1, 0.7, 0.5};
+    restitute_material *prony;
+    if (restitute_material_prony(0.5, 0, 3, tau, g, 0.5, &prony, NULL)) return 2;
+    solve("sync", restitute_method_sync(), impacts, 1e-6, prony);
+    solve("euler", restitute_method_euler(), 60, 1e-2, prony);
+#ifdef WITH_CVODE
+    solve("cvode", restitute_method_cvode(), 60, 1e-3, prony);
+#endif
+#ifdef WITH_BEM
+    solve("bem", restitute_method_bem(), 1, 0.1, prony);
+#endif
+#ifdef WITH_CONTACT
+    contacts(prony);
+#endif
+#ifdef WITH_TABLE
+    tables();
+#endif
+#ifdef WITH_FIT
+    fit();
+#endif
+#ifdef WITH_FILES
+    restitute_material *read;
+    if (argc > 1 && restitute_material_read(argv[1], &read, NULL, NULL) == 0) {
+        for (int i = -8; i < 8; i++)
+            print("files", i + 8, restitute_material_modulus(read, pow(10, i)));
+        restitute_material_destroy(read);
+    }
+#else
+    (void)argc, (void)argv;
+#endif
+    restitute_material_destroy(prony);
+    return wrong;
+}

@@ -1,0 +1,35 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# Are the numbers the same whatever compiled the library?  run.sh DIRECTORY [VARIANT ...]
+# Builds each variant in DIRECTORY, runs `numbers` and compares with the first one. Variants are
+# COMPILER-OPTION, as gcc-O0 (gcc and clang for C; gfortran always), or aarch64 (see aarch64.cmake).
+set -eu
+here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
+source=$(dirname -- "$(dirname -- "$here")")
+mkdir -p "$1"
+directory=$(cd "$1" && pwd)
+shift
+[ $# -gt 0 ] || set -- gcc-O2 gcc-O0 gcc-O3 gcc-O3-march=x86-64-v3 clang-O2 aarch64
+for variant; do
+    place=$directory/$variant
+    flags=$(printf '%s' "${variant#*-}" | sed 's/-march/ -march/')
+    if [ "$variant" = aarch64 ]; then
+        ARM_PREFIX=$place/prefix
+        export ARM_PREFIX
+        set_up="-DCMAKE_TOOLCHAIN_FILE=$here/aarch64.cmake" flags=O2
+        run="qemu-aarch64 -L /usr/aarch64-linux-gnu -E LD_LIBRARY_PATH=${ARM_ROOT:-}/usr/lib/aarch64-linux-gnu"
+    else
+        set_up="-DCMAKE_C_COMPILER=${variant%%-*}" run=
+    fi
+    cmake -S "$source" -B "$place/library" --preset release -DRESTITUTE_PYTHON=OFF -DRESTITUTE_FORTRAN=OFF \
+        -DRESTITUTE_TABLE_FILES=OFF -DRESTITUTE_EXAMPLES=OFF -DBUILD_SHARED_LIBS=OFF "$set_up" \
+        -DCMAKE_C_FLAGS_RELEASE="-$flags" -DCMAKE_Fortran_FLAGS_RELEASE="-$flags" \
+        ${LAUNCHER:+-DCMAKE_C_COMPILER_LAUNCHER=$LAUNCHER} >"$place.log" 2>&1
+    cmake --build "$place/library" >>"$place.log" 2>&1
+    cmake --install "$place/library" --prefix "$place/prefix" >>"$place.log" 2>&1
+    cmake -S "$here" -B "$place/numbers" -G Ninja "$set_up" -DCMAKE_BUILD_TYPE=Release \
+        -DCMAKE_PREFIX_PATH="$place/prefix" >>"$place.log" 2>&1
+    cmake --build "$place/numbers" >>"$place.log" 2>&1
+    $run "$place/numbers/numbers" "$source/src/materials/polyisobutylene.json" >"$place.txt"
+    python3 -B "$here/compare.py" "$directory/$1.txt" "$place.txt"
+done
