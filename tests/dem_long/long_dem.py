@@ -27,7 +27,7 @@ LEDGER = 0.01
 def windows(steps):
     """Of the two shakes: first step, number of whole periods."""
     return [(int(first * steps), int(length * steps) // PERIOD)
-            for first, length in ((0.8, 5), (6.3, 3.4))]
+            for first, length in ((0.8, 5), (5.9, 4.6))]
 
 
 def command(args, part):
