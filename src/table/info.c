@@ -86,7 +86,7 @@ int restitute_table_flags(const restitute_table *table, const restitute_table_co
                           double sliding_speed, int *flags, restitute_error *error)
 {
     if (!table || !flags) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", table ? "flags" : "table");
-    int status = contact ? rst_check_contact(contact, error) : RESTITUTE_OK;
+    int status = contact ? rst_check_other_contact(contact, error) : RESTITUTE_OK;
     if (!status) status = rst_check_speeds(normal_speed, sliding_speed, "", error);
     if (status) return status;
     const restitute_table_contact *c = contact ? contact : &table->own;
