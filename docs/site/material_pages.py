@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,9 @@ from restitute import plot
 MODELS = {"prony": "Prony series", "kelvin_voigt": "Kelvin-Voigt", "maxwell": "Maxwell"}
 WINDOW = """, or
 a contact time at which the material was not measured"""
+COUPLED = """ Dundurs' beta
+of the two is {beta:.2g}, above the limit of {limit:g}: their normal and tangential problem are coupled,
+which the model neglects."""
 PAGE = """# {title}
 
 {source}
@@ -24,7 +28,7 @@ PAGE = """# {title}
 
 ## Try an impact
 
-A solid ball hits a thick wall. One of them is of this material and the other one is rigid.
+A solid ball hits a thick wall. One of them is of this material and the other one is rigid.{coupled}
 
 <div class="impact" id="impact"><noscript>This figure needs JavaScript.</noscript></div>
 <script type="application/json" id="impact-table">{table}</script>
@@ -41,6 +45,15 @@ of the sliders differ by less than {error_ez:.1g} in e_z and {error_ex:.1g} in e
 library computes.
 
 {moduli}"""
+
+
+def _coupled(material):
+    """A sentence if the flag COUPLED is set with friction, as it is at all speeds then."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", restitute.ModelLimitWarning)
+        pair = restitute.pair(material, radius=0.005, density=7800, friction=0.3, speed=1e-3)
+    limit = pair.settings.dundurs_limit
+    return COUPLED.format(beta=pair.dundurs_beta, limit=limit) if pair.dundurs_beta > limit else ""
 
 
 def _number(value):
@@ -105,5 +118,6 @@ def write_all(stage):
             title=material.name or name, source=material.source or "", name=name,
             constants=_constants(material), moduli=_moduli(material, name, folder),
             table=json.dumps(table, separators=(",", ":"), allow_nan=False), count=tables.CHECKED,
-            window=WINDOW if table["window"] else "", error_ez=table["error"]["ez"], error_ex=table["error"]["ex"], **table["limits"]))
+            window=WINDOW if table["window"] else "", coupled=_coupled(material),
+            error_ez=table["error"]["ez"], error_ex=table["error"]["ex"], **table["limits"]))
     return pages
