@@ -9,7 +9,7 @@ enum { n_speeds = sizeof speeds / sizeof *speeds };
 
 static void look_up_speeds(const restitute_table *table, const restitute_table_contact *contact, const char *name)
 {
-    int status;
+    int status, flags;
     for (int i = 0; i < n_speeds; i++)
         for (int j = 0; j < n_speeds; j++) {
             const double v_n[3] = {speeds[i], 1, speeds[i]}, v_t[3] = {speeds[j], -speeds[j], -1};
@@ -17,6 +17,8 @@ static void look_up_speeds(const restitute_table *table, const restitute_table_c
             WITHOUT_TRAPS(status, restitute_table_pair(table, contact, v_n[0], v_t[0], ez, ex, NULL), "%s: %g, %g",
                           name, v_n[0], v_t[0]);
             WITHOUT_TRAPS(status, restitute_table_pair_many(table, contact, 3, v_n, v_t, ez, ex, NULL), "%s: %g, %g",
+                          name, v_n[0], v_t[0]);
+            WITHOUT_TRAPS(status, restitute_table_flags(table, contact, v_n[0], v_t[0], &flags, NULL), "%s: %g, %g",
                           name, v_n[0], v_t[0]);
         }
 }
@@ -50,6 +52,11 @@ static void tables_of_contacts(void **state)
         look_up_speeds(table, NULL, name);
         restitute_scene larger = ball;
         larger.radius1 = 0.1, larger.mass1 = 3;
+        WITHOUT_TRAPS(status, restitute_table_contact_set(table, &larger, &contact, &error), "%s", name);
+        CHECK(status == RESTITUTE_OK, "%s: %s", name, error.message);
+        look_up_speeds(table, &contact, name);
+        restitute_table_contact_init(&contact);
+        larger.radius1 = 1e-6, larger.mass1 = 1e-15, larger.wave_density = 1e-100; /* another size, by far */
         WITHOUT_TRAPS(status, restitute_table_contact_set(table, &larger, &contact, &error), "%s", name);
         CHECK(status == RESTITUTE_OK, "%s: %s", name, error.message);
         look_up_speeds(table, &contact, name);
