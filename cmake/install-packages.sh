@@ -19,7 +19,7 @@ run_packages="cmake ninja-build gcc gfortran libc6-dev pkg-config libjansson-dev
 all_packages="$run_packages libsundials-dev libhdf5-dev libfftw3-dev libgsl-dev python3-h5py"
 package_tools="dpkg-dev file"
 test_packages="$all_packages $package_tools g++ libcmocka-dev liggghts libliggghts-dev locales mandoc mpi-default-dev mypy
-    python3-distributed python3-mpi4py python3-pytest python3-venv valgrind"
+    python3-distributed python3-hypothesis python3-mpi4py python3-pytest python3-venv valgrind"
 docs_packages="$all_packages doxygen furo librsvg2-bin mandoc python3-myst-parser python3-numpydoc python3-sphinx"
 case "${1-run}" in
 run) packages=$run_packages ;;

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "base/material.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -214,8 +215,9 @@ int restitute_material_shifted(const restitute_material *material, double time_s
     if (status) return rst_report(error, status, "with time_shift = %g: %s", time_shift, why.message);
     made->beta = material->beta;
     made->is_effective = material->is_effective;
+    const double most = DBL_MAX / fmax(time_shift, 1); /* of a window, which has no range */
     for (int i = 0; i < 2; i++)
-        made->window[i] = time_shift * material->window[i];
+        made->window[i] = material->window[i] > most ? (double)INFINITY : time_shift * material->window[i];
     *shifted = made;
     return rst_done(error);
 }

@@ -35,6 +35,8 @@ int rst_report(restitute_error *error, int status, const char *format, ...)
         va_start(arguments, format);
         rst_vprint(error->message, sizeof error->message, format, arguments);
         va_end(arguments);
+        for (char *c = error->message; *c; c++) /* of a stranger's file: one line, and no terminal obeys it */
+            if ((unsigned char)*c < ' ' || *c == 127) *c = '?';
     }
     return status;
 }

@@ -120,11 +120,12 @@ static int check_times(const restitute_material *material, const restitute_mater
                       viscosity, info->viscosity);
 }
 
-/* log10 a_T from the reference temperature. */
+/* log10 a_T from the reference temperature. A file may have any number: the sum of two halves does
+ * not overflow. */
 static double wlf_decades(const restitute_material_info *info, double temperature)
 {
-    const double above = temperature - info->wlf_reference;
-    return -info->wlf_c1 * above / (info->wlf_c2 + above);
+    const double half = 0.5 * (temperature - info->wlf_reference);
+    return -info->wlf_c1 * half / (0.5 * info->wlf_c2 + half);
 }
 
 int restitute_material_at_temperature(const restitute_material *material, const restitute_material_info *info,

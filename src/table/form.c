@@ -43,7 +43,12 @@ static int check_numbers(const restitute_table_data *d, restitute_error *error)
                   {"longest", d->longest, 0, INFINITY, NAN},
                   {"poisson_ratio", d->poisson_ratio, 0, 0.5, NAN},
                   {"equilibrium_modulus", d->equilibrium_modulus, 0, rst_moduli.high, NAN},
-                  {"parallel_viscosity", d->parallel_viscosity, 0, rst_viscosities.high, NAN}};
+                  {"parallel_viscosity", d->parallel_viscosity, 0, rst_viscosities.high, NAN},
+                  {"speed_limit", d->speed_limit, 0, INFINITY, NAN},
+                  {"radius_limit", d->radius_limit, 0, INFINITY, NAN},
+                  {"displacement_limit", d->displacement_limit, 0, INFINITY, NAN},
+                  {"dundurs_limit", d->dundurs_limit, 0, INFINITY, NAN},
+                  {"delta1", isnan(d->delta1) ? 0 : d->delta1, 0, 1e200, NAN}};
     int status = RESTITUTE_OK;
     for (size_t i = 0; i < sizeof number / sizeof *number && !status; i++) {
         const struct rst_range range = {number[i].low, number[i].high};
@@ -80,7 +85,10 @@ static int check_values(const restitute_table_data *d, restitute_error *error)
                             speed[0], speed[n - 1], d->low, d->high);
     if (!status) status = check_array(d->ez, 2 * n, -steep, steep, "ez", error);
     if (!status) status = check_array(d->ex, 4 * n * rst_places(d), -steep, steep, "ex", error);
-    if (!status) status = check_array(d->strain, 4 * n, 0, INFINITY, "strain", error);
+    for (int64_t i = 0; i < 4 * n && !status; i++) { /* no product or quotient overflows; times may be infinite */
+        const int endless = i % 4 == 3 && d->strain[i] == (double)INFINITY;
+        status = rst_check_within(endless ? 0 : d->strain[i], (struct rst_range){1e-150, 1e150}, 0, "a strain", error);
+    }
     if (!status) status = check_array(d->modulus, d->terms, rst_moduli.low, rst_moduli.high, "modulus", error);
     if (status) return status;
     return check_array(d->relaxation_time, d->terms, rst_times.low, rst_times.high, "relaxation_time", error);

@@ -1,0 +1,112 @@
+/* Tables in files. The input changes bytes of a good file, cuts it, or is the file; its checksum is
+ * mostly made right. Then look-ups with any numbers in what was read.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include <restitute/table_files.h>
+
+#include "../support/checksum.h"
+#include "fuzz.h"
+
+enum { block = 512, most = 1 << 16 };
+
+static uint8_t good[most];
+static size_t good_size;
+
+static void make_good_file(void)
+{
+    restitute_material *material;
+    restitute_scene scene;
+    restitute_table_options options;
+    restitute_table *table;
+    restitute_scene_init(&scene);
+    restitute_table_options_init(&options);
+    CALL(restitute_material_standard_solid, 1e6, 1e6, 300, 0.5, &material);
+    scene.material = material;
+    scene.radius1 = 0.005;
+    scene.mass1 = 0.004;
+    scene.friction = 0.3;
+    options.speed[0] = 0.1;
+    options.speed[1] = 0.2;
+    options.tolerance = 0.05;
+    REQUIRE(CALL(restitute_table_build, &scene, &options, &table) >= 0, "%s", fuzz_error.message);
+    REQUIRE(CALL_FLAGS(restitute_table_write, table, "fuzz.h5") == 0, "%s", fuzz_error.message);
+    FILE *file = fopen("fuzz.h5", "rb");
+    good_size = file ? fread(good, 1, most, file) : 0;
+    REQUIRE(good_size > block && good_size < most && fclose(file) == 0, "%zu bytes", good_size);
+    restitute_table_destroy(table);
+    restitute_material_destroy(material);
+}
+
+static size_t make_file(struct bytes *b, uint8_t *file)
+{
+    size_t size = good_size;
+    const int kind = below(b, 8), changes = below(b, 8);
+    memcpy(file, good, good_size);
+    for (int i = 0; i < changes && kind != 1; i++) {
+        const double value = signed_number(b, 1e-3, 1e3);
+        const uint64_t count = take(b, 3);
+        const size_t at = take(b, 2) % (size - sizeof value);
+        if (below(b, 2))
+            memcpy(file + at / 8 * 8, &value, sizeof value); /* numbers stand at multiples of 8 */
+        else
+            memcpy(file + at / 8 * 8, &count, sizeof count);
+    }
+    if (kind == 3) file[take(b, 1)] = (uint8_t)('0' + below(b, 10)); /* of a place */
+    if (kind == 0) size = take(b, 2) % size;
+    if (kind == 1) memcpy(file, b->at, size = b->left < most ? b->left : most);
+    if (size > block && kind != 2 && file[block - 1] == 0 && strstr((char *)file, "checksum ") &&
+        strstr((char *)file, "values at"))
+        set_checksum(file, size);
+    return size;
+}
+
+static void look_up(const restitute_table *table, struct bytes *b)
+{
+    enum { n = 3 };
+    double normal[n], sliding[n], ez[n] = {7, 7, 7}, ex[n] = {7, 7, 7}, one[2];
+    restitute_table_info info;
+    restitute_table_contact contact;
+    restitute_table_info_init(&info);
+    restitute_table_contact_init(&contact);
+    REQUIRE(CALL(restitute_table_describe, table, &info) == 0, "%s", fuzz_error.message);
+    contact.speed_factor = number(b, 1e-3, 1e3);
+    contact.psi_factor = number(b, 1e-3, 1e3);
+    contact.radius = number(b, 1e-3, 1);
+    contact.mass = number(b, 1e-3, 1);
+    restitute_table_contact *kept = sized(b, &contact), *given = below(b, 2) ? NULL : kept;
+    for (int i = 0; i < n; i++) {
+        normal[i] = number(b, 1e-4, 1e2);
+        sliding[i] = signed_number(b, 1e-4, 1e2);
+    }
+    /* a contact that restitute_table_contact_set did not fill may overflow, but gives a pair */
+    const int status = given ? CALL_FLAGS(restitute_table_pair_many, table, given, n, normal, sliding, ez, ex)
+                             : CALL(restitute_table_pair_many, table, NULL, n, normal, sliding, ez, ex);
+    for (int i = 0; i < n; i++) {
+        int flags = 0;
+        if (status == RESTITUTE_OK)
+            check_pair(ez[i], ex[i]);
+        else
+            REQUIRE(ez[i] == 7 && ex[i] == 7, "a failed look-up wrote");
+        if (CALL_FLAGS(restitute_table_pair, table, given, normal[i], sliding[i], &one[0], &one[1]) == RESTITUTE_OK)
+            check_pair(one[0], one[1]);
+        REQUIRE(status < 0 || (one[0] == ez[i] && one[1] == ex[i]), "%g of many, %g alone", ez[i], one[0]);
+        given ? CALL_FLAGS(restitute_table_flags, table, given, normal[i], sliding[i], &flags)
+              : CALL(restitute_table_flags, table, NULL, normal[i], sliding[i], &flags);
+        REQUIRE(flags >= 0 && flags < 32, "flags %d", flags);
+    }
+    free(kept);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static uint8_t file[most];
+    struct bytes b = {data, size};
+    restitute_table *table = NULL;
+    if (!good_size) make_good_file();
+    size = make_file(&b, file);
+    put_file("fuzz.h5", file, size);
+    const int status = CALL(restitute_table_read, "fuzz.h5", &table);
+    REQUIRE((status < 0) == !table, "status %d", status);
+    if (table) look_up(table, &b);
+    restitute_table_destroy(table);
+    return 0;
+}
