@@ -93,7 +93,7 @@ int restitute_table_flags(const restitute_table *table, const restitute_table_co
     const restitute_table_data *d = &table->d;
     double at[STRAINS];
     strains_at(table, c, normal_speed, at);
-    const double slide = at[SLIDE] * fabs(sliding_speed);
+    const double slide = fmin(at[SLIDE], 1e200) * fabs(sliding_speed); /* what sinks may slide on: infinite */
     *flags = (at[FAST] > d->speed_limit ? RESTITUTE_FLAG_FAST : 0) |
              (at[LARGE] > d->radius_limit ? RESTITUTE_FLAG_LARGE_CONTACT : 0) |
              (slide > d->displacement_limit * fmax(normal_speed, rst_least) ? RESTITUTE_FLAG_LONG_SLIDE : 0) |
