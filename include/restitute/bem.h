@@ -48,8 +48,8 @@
  *    the process: a program that itself makes or destroys FFTW plans in another thread meanwhile
  *    must call fftw_make_planner_thread_safe() (libfftw3_threads) before the first of either. That
  *    covers the plans of this component too.
- *  - Where there is no memory left this component returns ERROR_MEMORY, but FFTW's planner ends the
- *    program.
+ *  - Where there is no memory left this component returns ERROR_MEMORY, but FFTW ends the program
+ *    when there is none for what it allocates itself, in its planner and in some transforms.
  *  - In the ledger, the viscous parts are the work on the surface less what else it went to.
  *
  *  SPDX-License-Identifier: BSD-3-Clause (this file and the component's source)

@@ -300,6 +300,7 @@ static int solve_prescribed(struct impact *impact, struct rst_outcome *outcome, 
     if (!status) status = too_many_steps(impact, elements, step, error);
     if (status) return status;
     const enum bem_end end_of_coarse = run_once(impact, elements / 2, 2 * step, 0, &beside, &coarse);
+    if (end_of_coarse == BEM_NO_MEMORY) return out_of_memory(error);
     const enum bem_end end = run_once(impact, elements, step, impact->keep_ledger, &setup, &run);
     if (end != BEM_REBOUND && end != BEM_SUNK) return no_result(impact, end, step, error);
     fill(impact, &setup, elements, &run, outcome);
@@ -330,7 +331,7 @@ static int solve_refining(struct impact *impact, struct rst_outcome *outcome, re
         const int64_t before = impact->updates;
         const double left = rst_time_left(impact->problem);
         end = run_once(impact, elements, step, impact->keep_ledger, &setup, &run);
-        if (end == BEM_NO_MEMORY) break;
+        if (end == BEM_NO_MEMORY) return out_of_memory(error);
         if ((end == BEM_REBOUND || end == BEM_SUNK) && coarse.end == end) {
             fill(impact, &setup, elements, &run, outcome);
             compare(impact, &coarse, &run, elements, outcome);

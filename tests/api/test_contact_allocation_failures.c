@@ -1,0 +1,96 @@
+/* Every allocation of the component contact fails in turn: ERROR_MEMORY, no law, no leak, and then
+ * the same law, bit by bit. A step, and all else that is done with a law, allocates nothing.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#define _GNU_SOURCE
+
+#include "../support/failing_allocator.h"
+
+#include "../support/contact.h"
+
+static restitute_material *solid;
+static restitute_contact_law_options options;
+static restitute_error error;
+
+/* What a law says and does; no allocation. */
+static void give_law(const restitute_contact_law *law, struct given *given)
+{
+    enum { n = 40, room = 512 };
+    double state[n][room] = {{0}}, *states[n], equilibrium, viscosity, tau[8], g[8], bound;
+    size_t terms;
+    restitute_contact_rates rates;
+    restitute_contact_motion motion[n];
+    restitute_contact_force force[n];
+    restitute_contact_details details;
+    const double x[] = {1, 0, 0}, z[] = {0, 0, 1};
+    CHECK(restitute_contact_law_state_size(law) <= room, "state size");
+    restitute_contact_rates_init(&rates);
+    restitute_contact_details_init(&details);
+    for (int i = 0; i < n; i++) {
+        restitute_contact_motion_init(&motion[i]);
+        motion[i].overlap = 1e-6 * (i + 1);
+        motion[i].velocity[2] = 1e-3;
+        motion[i].radius = 0.01;
+        motion[i].friction = 0.3;
+        states[i] = state[i];
+    }
+    allocator.count = 0;
+    allocator.failing = 1;
+    allocator.for_good = allocator.armed = 1;
+    int status = restitute_contact_law_series(law, &equilibrium, &viscosity, &terms, tau, g, &bound, &error);
+    status |= restitute_contact_rates_set(law, 1e-5, &rates, &error);
+    for (int k = 0; k < 3; k++)
+        status |= restitute_contact_step_many(law, &rates, n, motion, states, force, NULL, &error);
+    status |= restitute_contact_step(law, &rates, motion, state[0], force, &error);
+    status |= restitute_contact_turn(law, z, x, state[0], &error);
+    status |= restitute_contact_peek(law, x, state[0], force, &error);
+    status |= restitute_contact_details_get(law, 0.01, state[0], &details, &error);
+    allocator.armed = allocator.for_good = 0;
+    CHECK(status == RESTITUTE_OK && allocator.count == 0, "%s; %ld allocations", error.message, allocator.count);
+    give(given, (double)restitute_contact_law_hash(law));
+    give(given, bound);
+    for (int i = 0; i < n; i++)
+        give(given, force[i].normal);
+}
+
+static int law_create(struct given *given)
+{
+    char untouched;
+    int status;
+    restitute_contact_law *law = (void *)&untouched;
+    ARMED(status, restitute_contact_law_create(solid, &options, &law, &error));
+    const long count = allocator.count;
+    CHECK(status >= 0 || law == (void *)&untouched, "law touched");
+    if (status >= 0) {
+        const long for_good = allocator.for_good;
+        give_law(law, given);
+        restitute_contact_law_destroy(law);
+        allocator.for_good = for_good;
+    }
+    allocator.count = count;
+    return status;
+}
+
+static void laws(void **state)
+{
+    double tau[12], g[12];
+    (void)state;
+    if (!CAN_FAIL) skip();
+    for (int k = 0; k < 12; k++)
+        tau[k] = pow(10, k - 8), g[k] = 1e6;
+    solid = solid_of(1e6, 0, 12, tau, g);
+    restitute_contact_law_options_init(&options);
+    options.details = options.slip_cycles = 1;
+    options.shortest = 1e-6;
+    options.longest = 1;
+    fail_each_allocation(&(struct subject){"terms are reduced", NULL, law_create, NULL, 0, 0});
+    restitute_material_destroy(solid);
+    solid = solid_of(1e6, 0, 3, tau, g);
+    fail_each_allocation(&(struct subject){"all terms", NULL, law_create, NULL, 0, 0});
+    restitute_material_destroy(solid);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(laws)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
