@@ -1,7 +1,5 @@
-/* What the header promises of a solver: statuses, overrides, extreme scenes, reuse, threads,
- * scaling.
+/* What the header promises of a solver: statuses, overrides, extreme scenes, reuse, scaling.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -390,48 +388,6 @@ static void a_used_solver_gives_the_bits_of_a_fresh_one(void **state)
     restitute_material_destroy(solid);
 }
 
-struct job {
-    const restitute_material *solid;
-    double ez[20], ex[20];
-};
-
-static void *work(void *argument)
-{
-    struct job *job = argument;
-    restitute_solver *solver;
-    if (restitute_solver_create(NULL, &solver, NULL)) return NULL;
-    for (int i = 0; i < 20; i++) {
-        restitute_impact impact = impact_on(job->solid, 7.0 / 6, 0.1 + 0.2 * i);
-        restitute_result result;
-        restitute_result_init(&result);
-        restitute_solve(solver, &impact, &result, NULL, NULL, NULL);
-        job->ez[i] = result.ez;
-        job->ex[i] = result.ex;
-    }
-    restitute_solver_destroy(solver);
-    return NULL;
-}
-
-static void threads_share_a_material(void **state)
-{
-    (void)state;
-    const double tau[] = {0.1, 1, 10}, g[] = {1, 2, 1};
-    restitute_material *solid = solid_of(1, 0, 3, tau, g);
-    struct job jobs[4];
-    pthread_t threads[4];
-    for (int i = 0; i < 4; i++) {
-        memset(&jobs[i], 0, sizeof jobs[i]);
-        jobs[i].solid = solid;
-        CHECK(pthread_create(&threads[i], NULL, work, &jobs[i]) == 0, "thread %d", i);
-    }
-    for (int i = 0; i < 4; i++)
-        pthread_join(threads[i], NULL);
-    CHECK(jobs[0].ez[0] > 0 && jobs[0].ez[0] < 1, "ez %g", jobs[0].ez[0]);
-    for (int i = 1; i < 4; i++)
-        CHECK(memcmp(&jobs[0], &jobs[i], sizeof jobs[0]) == 0, "thread %d differs", i);
-    restitute_material_destroy(solid);
-}
-
 static void versions_and_texts_are_there(void **state)
 {
     (void)state;
@@ -513,7 +469,6 @@ int main(void)
         cmocka_unit_test(units_do_not_matter),
         cmocka_unit_test(partners_and_kinds_of_motion_can_be_swapped),
         cmocka_unit_test(a_used_solver_gives_the_bits_of_a_fresh_one),
-        cmocka_unit_test(threads_share_a_material),
         cmocka_unit_test(versions_and_texts_are_there),
         cmocka_unit_test(defaults_add_nothing),
         cmocka_unit_test(an_infinite_psi_is_no_friction),

@@ -73,7 +73,8 @@ class Place:
                 raise OSError(errno.EACCES, "no file can be made in this folder")
         if self.status and not os.access(self.target, os.W_OK) or \
                 not self.through and not os.access(self.folder, os.W_OK | os.X_OK):
-            raise _error(errno.EACCES)
+            read_only = os.statvfs(self.folder).f_flag & os.ST_RDONLY
+            raise _error(errno.EROFS if read_only else errno.EACCES)
 
     def open_through(self):
         """A new descriptor of what is written through."""
