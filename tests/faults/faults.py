@@ -75,7 +75,7 @@ class Run:
     def __init__(self, name, words):
         self.name = name
         self.command = [RESTITUTE, *words.split()] if words else \
-            [sys.executable, "-c", BUILD, os.path.join(os.path.dirname(RESTITUTE), "..")]
+            [sys.executable, "-c", BUILD, os.environ["PACKAGE"]]
         os.makedirs("place", exist_ok=True)
         self.end(self.start())  # once before, for caches
         self.clear(old=False)

@@ -30,7 +30,7 @@ drops = {"speed": speeds, "ez": [0.9, 0.86, 0.83, 0.8], "starts": 1, "model": "k
 curve = np.array([0.01, 0.1, 1, 10, 100]), np.array([1, 2, 5, 10, 12]) * 1e5, np.array(
     [5, 10, 20, 20, 10]) * 1e4
 CALLS = {
-    "material": lambda: restitute.Material.prony([1e-3, 1e-2], [1e6, 2e6], 1e6).relaxation_modulus(1e-3),
+    "material": lambda: restitute.Material.prony([1e-3], [1e6], 1e6).relaxation_modulus(1e-3),
     "material by name": lambda: restitute.material("polyisobutylene").relaxation_modulus(1e-3),
     "pair": lambda: restitute.pair(rubber, speed=speeds, angle=30, **BALL).ex,
     "history": lambda: restitute.history(rubber, speed=0.1, samples=9, **BALL).normal_force,

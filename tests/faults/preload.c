@@ -4,8 +4,8 @@
  *     FAULT=kill   the process ends as by kill -9, before the call
  *     FAULT=stop   it stops, until SIGCONT
  *     FAULT=N      the call fails with errno N; FAULT_ON=yes: and all after it but removals
- * FAULT_SHORT=yes: writes take half of what they are given. And fault_memory(n, for_good), by ctypes:
- * the n-th allocation of our libraries fails, and with for_good all after it; 0: none.
+ * FAULT_SHORT=yes: writes take half of what they are given. And fault_memory(n, for_good), by
+ * ctypes: allocation n of our libraries fails, with for_good all after it; 0: none.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _GNU_SOURCE
 #include <fcntl.h>
