@@ -170,12 +170,16 @@ static void many(struct bytes *b, const restitute_material *material, const rest
         statuses[i] = 7;
         if (sizes_differ) impact[i].struct_size = (size_t)take(b, 1);
     }
-    const int status = CALL(restitute_solve_many, n, impact, options, result, statuses);
-    for (size_t i = 0; i < n; i++)
+    const int status = CALL_FLAGS(restitute_solve_many, n, impact, options, result, statuses);
+    int flags = status == RESTITUTE_ERROR_DOMAIN ? 0 : fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+    for (size_t i = 0; i < n; i++) {
+        if (statuses[i] == RESTITUTE_ERROR_DOMAIN) flags = 0;
         if (statuses[i] == 7 || statuses[i] < 0)
             REQUIRE(status < 0 && result[i].ez == -7, "case %zu was written", i);
         else
             check_pair(result[i].ez, result[i].ex);
+    }
+    REQUIRE(!flags, "flags %x, %s", (unsigned)flags, fuzz_error.message);
 }
 
 static restitute_body any_body(struct bytes *b)
