@@ -70,6 +70,7 @@ def solve(material, time, psi):
     density = material.density if material.density > 0 else 1.0
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", restitute.ModelLimitWarning)
+        warnings.simplefilter("ignore", restitute.UnitWarning)
         return restitute.pair(material, radius=radius, density=1.0, friction=1.0, normal_speed=1.0,
                               tangential_speed=np.asarray(psi, float) / kappa,
                               wave_density=density, method="sync", tolerance=1e-4, threads=0)

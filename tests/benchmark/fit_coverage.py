@@ -45,7 +45,8 @@ def measure(model, noise, rng):
     deviations of 0 or 1 are drawn again: the noise would be cut off there."""
     while True:
         solid, truth = draw(model, rng)
-        true = restitute.pair(solid, normal_speed=SPEED, method="sync", tolerance=1e-7, **BALL)
+        true = restitute.pair(solid, normal_speed=SPEED, method="sync", tolerance=1e-7,
+                              friction=0, **BALL)
         if np.all((true.ez > 3 * noise) & (true.ez < 1 - 3 * noise)):
             ez = np.clip(true.ez + noise * rng.normal(size=SPEED.size), 0, 1)
             return truth, ez, true.contact_time * (1 + noise * rng.normal(size=SPEED.size))

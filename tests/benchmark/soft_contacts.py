@@ -34,7 +34,7 @@ from restitute import Material, errors
 RATIOS = (0.05, 0.1, 0.2, 0.3, 0.5)
 PSI = (0.2, 0.5, 1.0, 1.5, 2.0, 3.0)
 CHI = 7 / 6
-BALL = dict(radius=0.005, density=7800)
+BALL = dict(radius=0.005, density=7800, friction=0)
 #: Solids under the ball at 1 m/s but for polyisobutylene: name, solid, speed.
 SOLIDS = (
     ("elastic", Material.elastic(1e6), 1.0),

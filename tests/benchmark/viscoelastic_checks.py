@@ -27,7 +27,7 @@ BETA = 1.5 * 1.25**0.4 * np.sqrt(32 / 15)
 DROPS = ((0.2, 1.8254), (0.4, 2.6935), (0.8, 3.8859))
 #: G_inf = 2 (C10 + C01) of Mooney and Rivlin; a term of 10 MPa that decays at 920/s.
 RUBBER = Material.prony([1 / 920], [10e6], 2 * (0.598e6 + 0.1495e6), poisson_ratio=0.49)
-BALL = dict(radius=0.03, density=1150)
+BALL = dict(radius=0.03, density=1150, friction=0)
 
 
 def pade(beta):

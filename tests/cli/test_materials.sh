@@ -96,7 +96,7 @@ material "$good_head, \"window_s\": [1, 2]}" && expect 0 pair --material m.json 
 has out '(measured from 1 to 2 s)' 'passed: the contact time is outside the window of times'
 printf 'speed_m_s\n0.01\n0.02\n' >rows.csv
 expect 0 pair --material m.json --radius 0.001 --density 1000 --friction 0.2 --input rows.csv --output out.csv
-has err '2 of 2 rows pass the limit UNMEASURED: contact time outside the window'
+has err '2 of 2 rows are flagged UNMEASURED: contact time outside the window in which'
 has out.csv.meta.json '"UNMEASURED": 2'
 has out.csv UNMEASURED
 material "$good_head," '"window_s": [2, 1]}' && bad 'line 2: window_s = [2, 1]: must be finite, > 0 and ascending'

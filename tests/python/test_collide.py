@@ -53,9 +53,9 @@ def test_momentum_of_two_spheres_is_conserved():
 def test_bodies_that_do_not_touch_are_refused_or_nan():
     ball = Body([(0, 0, 0.01), (0, 0, 0.02)], (0, 0, -0.1), radius=0.01, mass=4e-3)
     with pytest.raises(DomainError, match=r"impacts\[1\]: ") as caught:
-        collide(RUBBER, ball, FLOOR, radius_limit=1)
+        collide(RUBBER, ball, FLOOR, friction=0, radius_limit=1)
     assert caught.value.index == (1,)
-    after, _, pairs = collide(RUBBER, ball, FLOOR, radius_limit=1, on_error="nan")
+    after, _, pairs = collide(RUBBER, ball, FLOOR, friction=0, radius_limit=1, on_error="nan")
     assert np.isnan(after.velocity[1]).all() and np.isnan(pairs.ez).tolist() == [False, True]
     assert pairs.message(1) in str(caught.value)
     with pytest.raises(TypeError, match="'psi' is no keyword of collide"):
@@ -65,8 +65,10 @@ def test_bodies_that_do_not_touch_are_refused_or_nan():
 def test_vectors_of_other_lengths_and_unknown_keywords_are_refused_by_name():
     ball = Body((0, 0, 0.01), (0, 0, -1), radius=0.01, mass=1)
     with pytest.raises(DomainError, match=r"^first.velocity: has the shape \(2,\), must end in 3"):
-        collide(RUBBER, ball._replace(velocity=(0, 1)), FLOOR)
+        collide(RUBBER, ball._replace(velocity=(0, 1)), FLOOR, friction=0)
     with pytest.raises(DomainError, match="^second.radius = 'wide': must be a number"):
-        collide(RUBBER, ball, FLOOR._replace(radius="wide"))
+        collide(RUBBER, ball, FLOOR._replace(radius="wide"), friction=0)
+    with pytest.raises(TypeError, match="^friction is missing: must be >= 0"):
+        collide(RUBBER, ball, FLOOR)
     with pytest.raises(TypeError, match="'mu' is no keyword of collide; did you mean friction"):
         collide(RUBBER, ball, FLOOR, mu=0.3)

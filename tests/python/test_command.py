@@ -204,6 +204,45 @@ def test_a_signal_ends_a_long_impact_at_once():
     assert process.wait(20) in (-signal.SIGINT, 130)
 
 
+def test_a_signal_while_numpy_is_imported_ends_the_command_without_a_word(tmp_path):
+    (tmp_path / "numpy.py").write_text(  # as the C code of NumPy does
+        "import os, signal, traceback\n"
+        "try:\n    os.kill(os.getpid(), signal.SIGINT)\n    sum(range(1000))\n"
+        "except KeyboardInterrupt:\n    traceback.print_exc()\n    raise ImportError\n")
+    code = "import sys; from restitute.command import main; sys.exit(main())"
+    env = {**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), *sys.path])}
+    done = subprocess.run([sys.executable, "-c", code, "pair", "--psi", "1"], env=env,
+                          capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
+
+
+@pytest.mark.parametrize(("words", "remark"), [
+    (["--density", "1.15"], "density = 1.15 kg/m^3 is less than a solid has; 1.15 g/cm^3 are 1150"),
+    (["--density", "1.15", "--angle", "30"], "density = 1.15 kg/m^3 is less")])
+def test_what_looks_like_another_unit_is_remarked_once(run, words, remark):
+    status, _, err = run("pair", *BALL, "--material", "steel", *words)
+    assert status == 0 and err.count(remark) == 1
+    err = run("pair", "--material", "steel", "--radius", "0.005", "--friction", "0.3", *words[:2],
+              "--grid", "speed=0.01:0.1:50")[2]
+    assert err.count(remark) == 1
+
+
+def test_a_sphere_without_density_is_pointed_at_the_same_partner(run):
+    err = refused(run, "pair", *BALL, "--material", "steel", "--radius2", "0.005")
+    assert "--density2 or --mass2 is missing" in err and "(or --partner same: both" in err
+
+
+def test_a_grid_has_the_contact_radius_and_says_how_far_limits_are_exceeded(run):
+    words = ["pair", "--material", "rubber", "--radius", "0.003", "--friction", "0.5", "--grid"]
+    status, out, err = run(*words, "speed=0.01:1:3:log")
+    rows = list(csv.DictReader(out.splitlines()))
+    alone = restitute.pair("rubber", radius=0.003, friction=0.5, speed=0.01)
+    assert float(rows[0]["radius_ratio"]) == alone.radius_ratio
+    most = float(rows[2]["radius_ratio"])
+    assert "1 of 3 rows exceed the limit LARGE_CONTACT" in err and f"up to {most:.3g} (ez is" in err
+    assert "radius_ratio" not in run("pair", "--grid", "psi=1:2:3")[1]
+
+
 def test_materials_are_listed_and_shown(run):
     listed = run("materials")[1]
     assert all(name in listed for name in restitute.material_names())

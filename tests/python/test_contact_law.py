@@ -74,10 +74,11 @@ def test_motions_of_the_caller_are_used_in_place(rubber):
     law = restitute.ContactLaw(rubber)
     motions = law.motions(2)
     motions["overlap"], motions["radius"] = [1e-6, 2e-6], RADIUS
-    motions["velocity"] = [0, 0, 1]
+    motions["velocity"], motions["friction"] = [0, 0, 1], FRICTION
     given = law.step(law.states(2), 1e-6, motions)
     states = law.states(2)
-    named = law.step(states, 1e-6, overlap=[1e-6, 2e-6], radius=RADIUS, velocity=[0, 0, 1])
+    named = law.step(states, 1e-6, overlap=[1e-6, 2e-6], radius=RADIUS, velocity=[0, 0, 1],
+                     friction=FRICTION)
     assert np.array_equal(given.normal, named.normal) and named.normal[1] > named.normal[0] > 0
 
 
@@ -134,10 +135,12 @@ def test_members_of_a_motion_are_checked_by_name(rubber):
         law.step(law.states(1), 1e-6, overlap=1e-6, radius=RADIUS, frict=0.3)
     with pytest.raises(restitute.DomainError, match="motions: 3 are given, must be 1"):
         law.step(law.states(1), 1e-6, law.motions(3))
+    with pytest.raises(TypeError, match="^friction is missing: must be in .* the law frictionless"):
+        law.step(law.states(1), 1e-6, overlap=1e-6, radius=RADIUS)
 
 
 def test_both_bodies_deform_at_half_the_stiffness(rubber):
-    motion = dict(overlap=1e-6, radius=RADIUS, velocity=[0, 0, 1])
+    motion = dict(overlap=1e-6, radius=RADIUS, velocity=[0, 0, 1], friction=FRICTION)
     soft, hard = (law.step(law.states(1), 1e-6, **motion).normal[0] for law in
                   (restitute.ContactLaw(rubber, partner=p) for p in ("same", "rigid")))
     assert soft == pytest.approx(hard / 2, rel=1e-12)
@@ -153,6 +156,6 @@ def test_a_law_takes_a_material_by_name_and_refuses_what_is_none():
     with pytest.raises(DomainError, match=r"^overlap: has the shape \(2,\), must broadcast to"):
         law.step(law.states(3), 1e-6, overlap=[1, 2])
     with pytest.raises(DomainError, match=r"^step \(s\) = 0: must be in"):
-        law.step(law.states(1), 0)
+        law.step(law.states(1), 0, friction=FRICTION)
     with pytest.raises(DomainError, match="shapes do not broadcast: mass"):
         law.time_scale([1, 2], 1, [1, 2, 3])

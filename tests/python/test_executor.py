@@ -73,7 +73,7 @@ def test_threads_of_a_pool_give_the_bits_of_one(chunk):
 
 def test_a_chunk_takes_along_the_solids_that_it_needs():
     solids = [Material.elastic(modulus) for modulus in np.geomspace(1e6, 1e7, 50)]
-    impacts = Impacts(solids, radius=0.001, density=1200, speed=0.01)
+    impacts = Impacts(solids, radius=0.001, density=1200, speed=0.01, friction=0.3)
     some = pickle.loads(pickle.dumps(impacts[10:12]))
     assert some.solids == solids[10:12] and len(some) == 2
     assert (solve(some).max_indentation == solve(impacts).max_indentation[10:12]).all()

@@ -23,8 +23,9 @@ def rubber():
 
 def drops(material, count, slowest=0.001, fastest=1.0, **scene):
     speed = np.geomspace(slowest, fastest, count)
-    return speed, restitute.pair(material, **BALL, **scene, speed=speed, method="sync",
-                                 tolerance=1e-7, radius_limit=9, displacement_limit=99)
+    return speed, restitute.pair(material, **BALL, speed=speed, method="sync",
+                                 tolerance=1e-7, radius_limit=9, displacement_limit=99,
+                                 **{"friction": 0, **scene})
 
 
 def test_what_goes_in_comes_out(rubber):
@@ -50,7 +51,7 @@ def test_what_goes_in_comes_out(rubber):
 def test_eight_points_against_the_wrong_solid_are_said_to_be_that(model, noise):
     pib = restitute.material("polyisobutylene")
     speed = np.geomspace(0.01, 1, 8)
-    pair = restitute.pair(pib, radius=0.005, density=7800, speed=speed, method="sync",
+    pair = restitute.pair(pib, radius=0.005, density=7800, speed=speed, friction=0, method="sync",
                           tolerance=1e-6, radius_limit=9)
     measured = pair.ez + noise * np.random.default_rng(8).normal(size=8)
     fit = restitute.fit_drop_test(ez=measured, contact_time=pair.contact_time, speed=speed,
@@ -62,7 +63,7 @@ def test_eight_points_against_the_wrong_solid_are_said_to_be_that(model, noise):
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_eight_residuals_that_make_an_arch_are_said_to_be_in_order(seed):
     speed = np.geomspace(0.001, 10, 8)
-    pair = restitute.pair(restitute.material("polyisobutylene"), **BALL, speed=speed,
+    pair = restitute.pair(restitute.material("polyisobutylene"), **BALL, speed=speed, friction=0,
                           method="sync", tolerance=1e-6, radius_limit=9)
     noise = np.random.default_rng(seed).normal(0, 0.004, 8)
     fit = restitute.fit_drop_test(ez=pair.ez + noise, speed=speed, **BALL, known={"modulus1": 1e6})
@@ -211,7 +212,7 @@ def test_a_fit_prints_its_constants_with_their_intervals(rubber):
     text = str(restitute.fit_drop_test(ez=pair.ez, speed=speed, **BALL, known={"modulus1": 1e6}))
     assert "  modulus1_pa                1e+06         known" in text
     assert "  viscosity_pa_s             300" in text and "correlations" in text
-    assert text.endswith("impacts solved")
+    assert text.endswith("the model fits within the scatter of the data")
 
 
 def test_the_command_takes_rebound_ratios_hardness_and_columns_of_the_scene(
@@ -274,3 +275,74 @@ def test_a_partner_may_be_given_by_its_name(rubber):
     named = restitute.fit_drop_test(**given, partner="steel")
     same = restitute.fit_drop_test(**given, partner=restitute.material("steel"))
     assert np.array_equal(named.value, same.value)
+
+
+@pytest.mark.component("files")
+def test_a_fit_is_saved_with_density_and_window(rubber, tmp_path):
+    speed, pair = drops(rubber, 8)
+    ball = dict(ez=pair.ez, contact_time=pair.contact_time, speed=speed, radius=0.005)
+    density = BALL["mass"] / (4 / 3 * np.pi * 0.005**3)
+    fit = restitute.fit_drop_test(**ball, density=density)
+    fit.save(tmp_path / "rubber.json")
+    again = restitute.material(tmp_path / "rubber.json")
+    assert again == fit.material and again.density == density
+    assert '"modulus2_pa"' in (tmp_path / "rubber.json").read_text()
+    # the fit solves its impacts to 1e-6
+    assert again.window == pytest.approx((pair.contact_time.min(), pair.contact_time.max()), 1e-4)
+    assert np.isnan(restitute.fit_drop_test(**ball, mass=BALL["mass"]).material.density)
+
+
+def test_the_window_is_that_of_the_reference_temperature(rubber):
+    speed, shift = np.geomspace(0.01, 1, 8), np.array([1, 0.1])[:, None]
+    pair = restitute.pair(rubber, **BALL, speed=speed, time_shift=shift, friction=0, method="sync",
+                          tolerance=1e-7, radius_limit=9)
+    fit = restitute.fit_drop_test(ez=pair.ez, contact_time=pair.contact_time, speed=speed, **BALL,
+                                  temperature=[[20], [60]], known={"modulus1": 1e6})
+    assert fit.names[-1] == "shift_60" and fit.value[-1] == pytest.approx(0.1, rel=1e-3)
+    times = pair.contact_time / shift
+    assert fit.material.window == pytest.approx((times.min(), times.max()), 1e-3)
+
+
+def test_the_window_of_moduli_is_that_of_their_frequencies(rubber):
+    omega = np.geomspace(10, 1e5, 25)
+    fit = restitute.fit_dma(omega / (2 * np.pi), rubber.storage_modulus(omega),
+                            rubber.loss_modulus(omega))
+    assert fit.material.window == pytest.approx((1e-5, 0.1), 1e-12)
+    assert fit.verdict == "the model fits within the scatter of the data"
+
+
+def test_a_verdict_says_whether_the_model_fits_within_the_scatter(rubber):
+    speed, pair = drops(rubber, 8)
+    given = dict(ez=pair.ez, speed=speed, **BALL)
+    assert "does not matter to e" in restitute.fit_drop_test(**given).verdict
+    wrong = restitute.fit_drop_test(**given, contact_time=pair.contact_time, model="kelvin_voigt")
+    assert wrong.verdict == "the model does not fit: the data do not follow it"
+    few = restitute.fit_drop_test(ez=0.5, speed=1, model="kelvin_voigt", known={"modulus1": 1e6},
+                                  **BALL)
+    assert few.verdict.endswith("whether the model fits: no more values than constants")
+
+
+def test_known_may_be_a_hardness_or_youngs_modulus():
+    given = dict(drop_height=[0.1, 0.2, 0.5, 1], rebound_ratio=[0.8, 0.75, 0.7, 0.66], **BALL,
+                 model="kelvin_voigt", poisson_ratio=0.4)
+    for name, keyword, value in (("shore_a", "shore_a", 90), ("youngs_modulus", "youngs", 2e7)):
+        modulus = restitute.shear_modulus(**{keyword: value}, poisson_ratio=0.4)
+        fit = restitute.fit_drop_test(**given, known={name: value})
+        assert fit.value[0] == modulus and fit.low[0] == fit.high[0]
+        with pytest.raises(TypeError, match=f"known: modulus1 and {name} are both given"):
+            restitute.fit_drop_test(**given, known={name: value, "modulus1": 1e6})
+    with pytest.raises(restitute.DomainError, match="known: shore_a = 5: must be in"):
+        restitute.fit_drop_test(**given, known={"shore_a": 5})
+
+
+def test_a_number_of_terms_is_not_taken_for_a_time(tmp_path, monkeypatch, capfd):
+    with pytest.raises(restitute.DomainError, match="terms = 3: must be relaxation times .s., not"):
+        restitute.fit_drop_test(ez=[0.5, 0.6, 0.7], speed=[1, 2, 3], **BALL, model="prony", terms=3)
+    assert main(["fit", "--input", "drop.csv", "--model", "prony", "--terms", "3"]) == 2
+    assert "--terms = 3: must be relaxation times, s, not how many" in capfd.readouterr().err
+
+
+def test_drop_heights_in_millimetres_are_warned_of():
+    with pytest.warns(restitute.UnitWarning, match="drop_height = 1000 m: heights are in m"):
+        restitute.fit_drop_test(drop_height=[100, 1000], rebound_ratio=[0.8, 0.7], **BALL,
+                                model="kelvin_voigt", known={"modulus1": 1e8})

@@ -165,3 +165,35 @@ def test_bad_constants_are_refused_by_value(make, words):
 def test_constants_that_are_none_are_refused_by_name(make, words):
     with pytest.raises(DomainError, match=words):
         make()
+
+
+@pytest.mark.parametrize(("call", "words"), [
+    (lambda: Material("steel"), "take restitute.material of a name or a file, or a constructor"),
+    (lambda: Material.standard_solid(1e6, 1e6, 3, poisson=0.3), "did you mean poisson_ratio"),
+    (lambda: Material.elastic(1e6, densty=1e3), "no keyword of Material.elastic; .* density")])
+def test_a_wrong_call_is_told_the_right_one(call, words):
+    with pytest.raises(TypeError, match=words):
+        call()
+
+
+@pytest.mark.component("files")
+@pytest.mark.parametrize("solid", [
+    Material.elastic(1e6), Material.kelvin_voigt(1e6, 50.0, name="damper", density=1100.0),
+    Material.maxwell(1e6, 50.0, window=(1e-5, 2.0)), Material.standard_solid(1e6, 3e6, 300.0, 0.4),
+    restitute.material("polyisobutylene", 40)], ids=str)
+def test_a_saved_material_is_read_as_it_was(solid, tmp_path):
+    solid.save(tmp_path / "m.json")
+    again = restitute.material(tmp_path / "m.json")
+    assert again == solid
+    assert again.wlf == solid.wlf and again.temperature == pytest.approx(solid.temperature,
+                                                                         nan_ok=True)
+
+
+def test_what_cannot_be_saved_says_why(tmp_path):
+    solid = Material.elastic(1e6)
+    with pytest.raises(restitute.DomainError, match="must end in .json"):
+        solid.save(tmp_path / "m.txt")
+    with pytest.raises(restitute.FileError, match="nowhere/m.json: cannot be written: No such"):
+        solid.save(tmp_path / "nowhere" / "m.json")
+    with pytest.raises(restitute.DomainError, match="save each"):
+        Material.effective(solid, solid).save(tmp_path / "m.json")

@@ -59,13 +59,35 @@ def test_normal_and_tangential_speed_are_speed_and_angle():
 
 def test_a_mass_is_a_density_and_a_material_gives_its_own():
     mass = 4 / 3 * np.pi * 0.001**3 * 1100
-    both = {"radius": 0.001, "radius2": 0.002, "speed": 0.01, "partner": "same"}
+    both = {"radius": 0.001, "radius2": 0.002, "speed": 0.01, "partner": "same",
+            "friction": 0.3}
     own = pair(RUBBER, **both)
     assert pair(RUBBER, **both, mass=mass, mass2=8 * mass).ez == pytest.approx(own.ez, rel=1e-12)
     fast = pair(RUBBER, **both, density2=np.inf)
     assert fast.ez != own.ez
     wall = pair(RUBBER, **{**both, "radius2": [0.002, np.inf]})
-    assert wall.ez[0] == own.ez and wall.ez[1] == pair(RUBBER, **{**both, "radius2": None}).ez
+    ball = {**both, "radius2": None}
+    assert wall.ez[0] == own.ez and wall.ez[1] == pair(RUBBER, **ball).ez
+    rigid = pair(RUBBER, **{**ball, "partner": "rigid"})  # the same rule against a rigid partner
+    assert rigid.ez == pair(RUBBER, **{**ball, "partner": "rigid"}, mass=mass).ez != own.ez
+    with pytest.raises(TypeError, match="density2 or mass2 is missing: .*partner='same': both"):
+        pair(RUBBER, **{**both, "partner": "rigid"})
+    with pytest.raises(TypeError, match="density or mass is missing: .*the material has none"):
+        pair(Material.elastic(1e6), **ball)
+
+
+@pytest.mark.parametrize("function", [pair, restitute.history, restitute.describe, Impacts,
+                                      pytest.param(lambda *solid, speed, **ball:
+                                               restitute.Table.build(*solid, **ball), id="table")])
+def test_friction_is_required_of_all_alike(function):
+    with pytest.raises(TypeError, match=r"^friction is missing: must be >= 0 \(inf: no slip\)"):
+        function(RUBBER, radius=0.001, speed=0.01)
+
+
+@pytest.mark.parametrize("name", ["density", "density2"])
+def test_a_density_in_grams_a_cubic_centimetre_is_warned_of(name):
+    with pytest.warns(restitute.UnitWarning, match=f"^{name} = 1.15 kg/m.3 is less than a solid"):
+        Impacts(RUBBER, **{**BALL, "partner": "same", "radius2": 0.001, name: 1.15})
 
 
 def test_materials_and_partners_broadcast_with_the_rest():
@@ -104,8 +126,8 @@ def test_energies_add_up():
     ({"radius": None}, "radius is missing"),
     ({"speed": None}, "give speed"),
     ({"tangential_speed": 1}, "give speed"),
-    ({"density2": 5}, "density2 needs a partner sphere"),
-    ({"density": None}, "^density or mass is missing"),
+    ({"density2": 5000}, "density2 needs a partner sphere"),
+    ({"friction": None}, "^friction is missing: must be >= 0"),
     ({"delta": 5}, "'delta' .* did you mean delta1"),
     ({"velocity": 5}, "'velocity' .* did you mean speed"),
     ({"time_shift": 2, "partner": RUBBER}, "time_shift beside")])

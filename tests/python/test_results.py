@@ -89,11 +89,25 @@ def test_pairs_have_the_length_and_the_indices_of_their_arrays():
         assert np.array_equal(grid[index].ledger.friction_x, grid.ledger.friction_x[index],
                               equal_nan=True)
     assert "friction = -1" in grid[1].message(2) and grid[0].message(2) == ""
-    assert [row.ex.tolist() for row in grid[:1]] == [grid.ex[0].tolist()]
-    with pytest.raises(TypeError, match="unsized|0-d"):
-        len(grid[0, 1])
+    for one_impact in (lambda: len(grid[0, 1]), lambda: grid[0, 1][0]):
+        with pytest.raises(TypeError, match="the result of one impact, .* or ez, ex = result"):
+            one_impact()
     with pytest.raises(IndexError):
         grid[2]
+
+
+@pytest.mark.parametrize("speed", [0.015, [0.011, 0.015], [0.011, 0.012, 0.02]])
+@pytest.mark.component("table")
+def test_pairs_of_impacts_and_of_tables_unpack_alike(speed):
+    for result in (pair(RUBBER, **BALL, speed=speed), table().pair(speed)):
+        ez, ex = result
+        assert np.array_equal(ez, result.ez) and np.array_equal(ex, result.ex)
+        if np.ndim(speed):
+            assert len(result) == len(speed) and result[1].ez == ez[1]
+            assert np.array_equal(result[1:].flags, result.flags[1:])
+        else:
+            with pytest.raises(TypeError, match="the result of one impact"):
+                result[0]
 
 
 def test_a_history_has_the_length_and_the_indices_of_its_samples():

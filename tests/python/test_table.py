@@ -176,6 +176,13 @@ def test_a_saved_table_loads_with_the_same_bits(table, speeds, tmp_path):
         table.save(tmp_path / "none" / "rubber.h5")
 
 
+def test_a_table_is_not_made_of_a_path_and_not_written_as_text(table, tmp_path):
+    with pytest.raises(TypeError, match="take Table.load of a file, or Table.build"):
+        restitute.Table("a.h5")
+    with pytest.raises(restitute.DomainError, match="t.csv: a table is an HDF5 file, no text"):
+        table.save(tmp_path / "t.csv")
+
+
 def test_an_installation_without_files_says_what_else_keeps_a_table(table, monkeypatch):
     monkeypatch.delitem(_library.LIBRARIES, "table_files", raising=False)
     with pytest.raises(restitute.errors.MissingComponent, match="use pickle"):

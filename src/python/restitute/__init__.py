@@ -29,6 +29,7 @@ if TYPE_CHECKING:  # which names there are, for type checkers
         ModelLimitWarning,
         SolverError,
         ToleranceWarning,
+        UnitWarning,
     )
     from restitute.executor import map_chunks
     from restitute.fitting import fit_dma, fit_drop_test
@@ -45,7 +46,7 @@ _HOME = {name: module for module, names in {
     "citing": "cite", "collisions": "Body collide", "constants": "shear_modulus solids",
     "contact": "ContactLaw",
     "errors": "DomainError Error FileError FormatError MissingComponent ModelLimitWarning "
-              "SolverError ToleranceWarning",
+              "SolverError ToleranceWarning UnitWarning",
     "executor": "map_chunks", "fitting": "fit_dma fit_drop_test", "histories": "History history",
     "impact": "Pairs pair solve",
     "materials": "Material material material_names",

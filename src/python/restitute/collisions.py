@@ -57,7 +57,7 @@ def after(bodies: Any, records: Any, shape: tuple, failed: Any) -> list[Body]:
 
 
 def collide(material: Any, first: Body, second: Body, *, partner: Any = "rigid",
-            friction: Any = 0.0, touch_gap: Any = 1e-6, wave_density: Any = 0.0,
+            friction: Any = None, touch_gap: Any = 1e-6, wave_density: Any = 0.0,
             method: str = "euler", on_error: str = "raise",
             **settings: Any) -> tuple[Body, Body, Pairs]:
     """What two bodies that touch, or many pairs of them, do: pair by pair, in one thread.
@@ -65,7 +65,7 @@ def collide(material: Any, first: Body, second: Body, *, partner: Any = "rigid",
     Parameters
     ----------
     material, partner, friction, wave_density, method, **settings
-        As in `restitute.pair`; all broadcast but method and settings.
+        As in `restitute.pair`, friction required, too; all broadcast but method and settings.
     first, second : Body
         Before the impact. One may be a plane.
     touch_gap : float, in [0, 1]
@@ -98,6 +98,8 @@ def collide(material: Any, first: Body, second: Body, *, partner: Any = "rigid",
     for name in rest:
         raise TypeError(f"'{name}' is no keyword of collide"
                         f"{errors.suggestion(name, [*collide.__kwdefaults__, *OPTIONS])}")
+    if friction is None:
+        raise TypeError("friction is missing: must be >= 0 (inf: no slip)")
     solids, place, deformable = combine(material, partner, 1.0)
     columns = {"material": np.array([s.address for s in solids], np.uint64)[place],
                "deformable": deformable, "friction": numbers("friction", friction),

@@ -56,7 +56,7 @@ class ContactLaw:
 
     >>> import restitute
     >>> rubber = restitute.Material.standard_solid(1e6, 3e6, 300.0)
-    >>> law, mass, speed = restitute.ContactLaw(rubber), 5e-6, -0.1
+    >>> law, mass, speed = restitute.ContactLaw(rubber, frictionless=True), 5e-6, -0.1
     >>> step = law.time_step_limit(mass, 1e-3, 0.1)
     >>> states, overlap, force = law.states(1), 0.0, 0.0
     >>> while overlap >= 0:
@@ -138,7 +138,8 @@ class ContactLaw:
             Are written into `motions`, broadcast to (m,) or (m, 3): `overlap` (m, at the end of
             the step), `normal`, `velocity` (m/s, of the surface of body 1 relative to that of 2,
             mean of the step), `spin` (rad/s), `inverse_mass`, `inverse_tangential_mass` (1/kg),
-            `radius` (m, effective), `friction`.
+            `radius` (m, effective), `friction`: required without `motions`, unless the law is
+            `frictionless`.
 
         Raises
         ------
@@ -146,9 +147,9 @@ class ContactLaw:
             A contact failed: its state is as it was, all others have advanced. The exception has
             its `index`, the `statuses` of all and their `forces`.
         """
-        places = self._places(states, rows)
+        places, required = self._places(states, rows), False
         if motions is None:
-            motions = self.motions(len(places))
+            motions, required = self.motions(len(places)), not self._given[1].get("frictionless")
         elif len(motions) != len(places):
             raise errors.DomainError(f"motions: {len(motions)} are given, must be {len(places)}")
         known = list(motions.dtype.fields or ())[1:]
@@ -156,6 +157,8 @@ class ContactLaw:
             if name not in known:
                 raise TypeError(f"'{name}' is no keyword of step{errors.suggestion(name, known)}")
             motions[name] = fit_shape(name, numbers(name, value), motions[name].shape)
+        if required and "friction" not in members:
+            raise TypeError("friction is missing: must be in [0, 1e6], or the law frictionless")
         rates = _library.struct("contact_rates", "contact")
         call(_library.contact.restitute_contact_rates_set, self._handle, number("step", step),
              rates)

@@ -55,6 +55,10 @@ class ModelLimitWarning(UserWarning):
     """Some results strain an assumption of the model; the text says how many, and which."""
 
 
+class UnitWarning(UserWarning):
+    """A value looks as if it were in another unit than the one that is asked for."""
+
+
 _OTHER_WORDS = {"velocity": "speed", "v": "speed", "mu": "friction", "nu": "poisson_ratio",
                 "height": "drop_height", "diameter": "radius", "theta": "angle"}
 

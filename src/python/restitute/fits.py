@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 import numpy as np
 
 from restitute import _library
-from restitute.materials import Material
+from restitute.materials import Material, document, write_file
 
 __all__ = ["MEASURED", "DmaFit", "DropFit", "Fit"]
 
@@ -17,12 +18,12 @@ MEASURED = ("ez", "ex", "contact_time")
 
 
 class Fit:
-    """What fits have in common; print one to see it all.
+    """What fits have in common; print one to see it all, `save` its material for other programs.
 
     Attributes
     ----------
     material : Material
-        The fitted solid.
+        The fitted solid. Its `window` is that of the contact times, or of 1/(2 pi f), of the data.
     names : list of str
         Its n constants, e.g. "modulus1_pa", then "friction" and "shift_..." where fitted.
     value, low, high : ndarray, shape (n,)
@@ -38,10 +39,10 @@ class Fit:
     summary = ""
     correlation = np.empty((0, 0))
 
-    def __init__(self, struct: Any, model: str, name: str, constants: list):
+    def __init__(self, struct: Any, model: str, constants: list, **about: Any):
         self.remarks, self.flags = _library.text(struct.remarks).splitlines(), struct.flags
         self.model, self.rms = model, struct.rms
-        self.material = Material(struct.material, name=name, model=model)
+        self.material = Material(struct.material, model=model, **about)
         names, *numbers = zip(*constants)
         self.names, (self.value, self.low, self.high) = list(names), np.array(numbers)
 
@@ -51,6 +52,33 @@ class Fit:
         bad = ("UNDETERMINED", "MISFIT", "UNFINISHED")
         return not any(self.flags & getattr(_library.fit, f"RESTITUTE_FIT_FLAG_{word}")
                        for word in bad)
+
+    @property
+    def verdict(self) -> str:
+        """Whether the model fits within the scatter of the data, in a line."""
+        flags = self.flags
+        if flags & _library.fit.RESTITUTE_FIT_FLAG_UNFINISHED:
+            return "nothing tells whether the model fits: the search has not ended"
+        if flags & _library.fit.RESTITUTE_FIT_FLAG_MISFIT:
+            return "the model does not fit: the data do not follow it"
+        if np.isnan(getattr(self, "noise", 0.0)):
+            return "nothing tells whether the model fits: no more values than constants"
+        rest = ("; what is not determined does not matter to e at these speeds"
+                if flags & _library.fit.RESTITUTE_FIT_FLAG_UNDETERMINED else "")
+        return f"the model fits within the scatter of the data{rest}"
+
+    def save(self, path: str | os.PathLike) -> None:
+        """Write the material file that the command, C and the adapters read: see `Material.save`.
+
+        The constants in it are those of the model.
+        """
+        write_file(path, self.document())
+
+    def document(self) -> dict[str, Any]:
+        """What the material file says."""
+        constants = {name: value for name, value in zip(self.names, self.value.tolist())
+                     if "modulus" in name or "viscosity" in name}
+        return document(self.material, None if self.model == "prony" else constants)
 
     def __str__(self):
         lines = []
@@ -63,7 +91,7 @@ class Fit:
         for i, row in enumerate(self.correlation[1:], 1):
             lines += ["", "  correlations of the logarithms"] if i == 1 else []
             lines.append(f"  {self.names[i]:26} " + " ".join(f"{c:6.3f}" for c in row[:i]))
-        return "\n".join([*lines, "", f"  {self.summary}"])
+        return "\n".join([*lines, "", f"  {self.summary}", f"  {self.verdict}"])
 
     def __repr__(self):
         return "\n".join([f"<restitute.{type(self).__name__} {self.model}", str(self),
@@ -85,12 +113,12 @@ class DropFit(Fit):
         "ez", "ex", "contact_time" that the solid gives, measured or not.
     """
 
-    def __init__(self, struct: Any, model: str, name: str, confidence: float, measured: dict,
-                 fitted: dict):
+    def __init__(self, struct: Any, model: str, confidence: float, measured: dict, fitted: dict,
+                 **about: Any):
         n = struct.constants
-        super().__init__(struct, model, name, [
+        super().__init__(struct, model, [
             (_library.text(struct.name[k]), struct.value[k], struct.low[k], struct.high[k])
-            for k in range(n)])
+            for k in range(n)], **about)
         self.correlation = np.array([list(struct.correlation[k])[:n] for k in range(n)])
         self.values, self.rank, self.impacts = struct.values, struct.rank, struct.impacts
         self.noise, self.condition = struct.noise, struct.condition
@@ -134,16 +162,24 @@ class DmaFit(Fit):
                       for k in range(terms)]
         constants += [(f"shift_{t:g}", shift) for t, shift in zip(self.temperature, self.shift)]
         constants += [(f"wlf_c{k + 1}", c) for k, c in enumerate(self.wlf) if not np.isnan(c)]
-        super().__init__(struct, "prony", name, [(*one, np.nan, np.nan) for one in constants])
         self._tension, self._measured = tension, measured
+        omega = 2 * np.pi * self._reduced()
+        window = (1 / omega.max(), 1 / omega.min()) if omega.max() > omega.min() else None
+        super().__init__(struct, "prony", [(*one, np.nan, np.nan) for one in constants], name=name,
+                         window=window)
         self.summary = (f"Prony series of {terms} terms, relative residuals: rms {self.rms:.3g}, "
                         f"largest {self.worst:.3g}")
 
+    def _reduced(self):
+        """a_T times frequency."""
+        frequency, _, _, *temperature = self._measured
+        if not temperature:
+            return frequency
+        return frequency * self.shift[np.searchsorted(self.temperature, temperature[0])]
+
     def curves(self) -> dict[str, tuple]:
         """a_T times frequency, measured and fitted shear moduli, for `restitute.plot.fit`."""
-        frequency, storage, loss, *temperature = self._measured
-        if temperature:
-            frequency = frequency * self.shift[np.searchsorted(self.temperature, temperature[0])]
+        frequency, (_, storage, loss, *_) = self._reduced(), self._measured
         factor = 1 / (2 * (1 + self.material.poisson_ratio)) if self._tension else 1
         omega = 2 * np.pi * frequency
         return {"storage": (frequency, factor * storage, self.material.storage_modulus(omega)),

@@ -12,6 +12,7 @@ import numpy as np
 
 from restitute import _library, errors
 from restitute._library import call, ffi
+from restitute.constants import shear_modulus
 from restitute.fits import MEASURED, DmaFit, DropFit
 from restitute.materials import Material, as_material
 from restitute.scenes import SCENE, Impacts
@@ -26,6 +27,7 @@ MODELS = {"elastic": ("modulus",), "kelvin_voigt": ("modulus1", "viscosity"),
 LOSSES = ("squares", "huber", "cauchy")
 _MEMBERS = ("confidence", "reference_temperature", "starts", "seed", "threads")
 GRAVITY = 9.80665  # m/s^2
+_HIGH = 100.0  # m: nobody drops a ball from higher up
 
 
 class _Fitter:
@@ -100,9 +102,10 @@ def fit_drop_test(*, ez: Any = np.nan, ex: Any = np.nan, contact_time: Any = np.
         "same": both bodies are of the solid that is looked for.
     model : {"standard_solid", "kelvin_voigt", "maxwell", "elastic", "prony"}
     terms : array_like
-        Relaxation times of the model prony, s; 1 to 20.
+        Relaxation times of the model prony, s (not how many); 1 to 20.
     known : dict
-        Constants that are not fitted, e.g. {"modulus1": 1e6}; see `MODELS`.
+        Constants that are not fitted, e.g. {"modulus1": 1e6}; see `MODELS`. In place of the first
+        one also "youngs_modulus" or "shore_a", as of `restitute.shear_modulus`.
     loss : {"squares", "huber", "cauchy"}
         The last two are less disturbed by outliers.
     name : str
@@ -111,7 +114,8 @@ def fit_drop_test(*, ez: Any = np.nan, ex: Any = np.nan, contact_time: Any = np.
         progress(part done).
     **more
         `confidence`, `reference_temperature`, `starts`, `seed`, `threads`: members of
-        `restitute_fit_options`. `radius`, `density` or `mass`, `angle`, ...: as in `pair`.
+        `restitute_fit_options`. `radius`, `density` or `mass`, `angle`, ...: as in `pair`. One
+        density for all is that of the fitted solid, too; if the wall is what deforms, give mass.
 
     Returns
     -------
@@ -157,12 +161,34 @@ def fit_drop_test(*, ez: Any = np.nan, ex: Any = np.nan, contact_time: Any = np.
         deviation = np.sqrt(np.mean(weight) / weight)
         given.update(sigma_ez=deviation, sigma_ex=deviation,
                      sigma_contact_time=deviation * given["contact_time"])
+    density = np.unique(numbers("density", more.get("density", np.nan)))
     points, records, kept = _points(given, partner, poisson_ratio, more)
     options, arrays = _options(model, terms, known, loss, wlf, poisson_ratio, members)
     result, fitted = _Fitter(points, options, (records, kept, arrays)).run(progress)
     measured = {what: points[what] for what in MEASURED}
     measured["normal_speed"] = records["normal_speed"]
-    return DropFit(result, model, name, options.confidence, measured, fitted)
+    return DropFit(result, model, options.confidence, measured, fitted, name=name,
+                   density=density[0] if density.size == 1 else np.nan,
+                   window=_window(fitted["contact_time"], points["temperature"], options, result))
+
+
+def _window(time, temperature, options, result):
+    """The shortest and the longest contact time of the data, at the reference temperature; None if
+    there are no two."""
+    known, shifts = temperature[~np.isnan(temperature)], {}
+    if known.size:
+        reference = options.reference_temperature
+        t = known - (known[0] if np.isnan(reference) else reference)
+        with np.errstate(all="ignore"):  # nan: none is given
+            shifts = dict(zip(known, 10 ** (-options.wlf_c1 * t / (options.wlf_c2 + t))))
+        names = (_library.text(result.name[k]) for k in range(result.constants))
+        fitted = {name[6:]: result.value[k] for k, name in enumerate(names)
+                  if name.startswith("shift_")}
+        shifts = {one: fitted.get(f"{one:g}", 1.0 if np.isnan(shift) else shift)
+                  for one, shift in shifts.items()}
+    time = time / np.array([shifts.get(one, 1.0) for one in temperature])
+    time = time[np.isfinite(time) & (time > 0)]
+    return (time.min(), time.max()) if time.size and time.min() < time.max() else None
 
 
 def _heights(given):
@@ -173,6 +199,9 @@ def _heights(given):
         raise TypeError("speed is missing: must be > 0 (or drop_height)")
     if drop is not None:
         _check("drop_height", drop, 5e-324, np.inf, "must be > 0")
+        if np.nanmax(drop, initial=0) > _HIGH:
+            _library.warn(f"drop_height = {np.nanmax(drop):g} m: heights are in m, not in mm",
+                          errors.UnitWarning)
         speed = given.get("speed", np.nan)
         if not np.all(np.isnan(speed) | np.isnan(drop)):
             raise TypeError("drop_height and speed both give the speed")
@@ -238,14 +267,17 @@ def _options(model, terms, known, loss, wlf, poisson_ratio, members):
     """restitute_fit_options, and the arrays that must live as long."""
     one_of("model", model, MODELS)
     one_of("loss", loss, LOSSES)
+    if isinstance(terms, (int, np.integer)):
+        raise errors.DomainError(f"terms = {terms}: must be relaxation times (s), not how many, as "
+                                 "[1e-4, 1e-2]")
     terms = np.atleast_1d(numbers("terms", terms))
     if (model == "prony") != (terms.size > 0):
         raise TypeError("terms and the model prony belong together")
     names = [*MODELS[model], *(f"term{k + 1}" for k in range(terms.size))]
     values = np.full(len(names), np.nan)
-    for name, value in (known or {}).items():
+    for name, value in _shear(known or {}, names[0], poisson_ratio).items():
         if name not in names:
-            raise errors.DomainError(f"known: {name!r} is no constant of this model"
+            raise errors.DomainError(f"known: '{name}' is no constant of this model"
                                      f"{errors.suggestion(name, names)}")
         value = number(f"known: {name}", value)
         if not (1e-30 <= value <= 1e30 or (value == 0 and model == "prony")):
@@ -257,6 +289,22 @@ def _options(model, terms, known, loss, wlf, poisson_ratio, members):
         terms=terms.size, relaxation_time=arrays[0], known=arrays[1], poisson_ratio=poisson_ratio,
         **_wlf(wlf), **members)
     return options, arrays
+
+
+def _shear(known, first, poisson_ratio):
+    """Known constants, with a shear modulus, the first one, in place of E or a hardness."""
+    known = dict(known)
+    for name, keyword in (("youngs_modulus", "youngs"), ("shore_a", "shore_a")):
+        if name not in known:
+            continue
+        if first in known:
+            raise TypeError(f"known: {first} and {name} are both given: one determines the other")
+        try:
+            value = shear_modulus(**{keyword: known.pop(name)}, poisson_ratio=poisson_ratio)
+        except errors.DomainError as why:
+            raise errors.DomainError(f"known: {why}") from None
+        known[first] = float(value)
+    return known
 
 
 def _wlf(constants):

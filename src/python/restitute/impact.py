@@ -2,7 +2,7 @@
 """Restitution pairs of one impact or of arrays of them."""
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from restitute._library import core
 from restitute.columns import Columns
 from restitute.scenes import Impacts
 from restitute.solving import OPTIONS, Solved, options, solve_impacts
-from restitute.values import one_of, span
+from restitute.values import one_by_one, one_of, span
 
 __all__ = ["LIMITS", "Pairs", "pair", "solve"]
 
@@ -36,7 +36,8 @@ LIMITS = (
 class Pairs(Columns):
     """What came out of `pair`: arrays of the shape of the input, SI or in units of the paper.
 
-    Can be pickled. `pairs[1]`, `pairs[:, 0]` and `len` are as of these arrays.
+    `ez, ex = pair(...)` takes it apart, however many impacts there are. `pairs[1]`, `pairs[:, 0]`
+    and `len` are as of the arrays: to go through the impacts, use their indices. Can be pickled.
 
     Attributes
     ----------
@@ -69,7 +70,14 @@ class Pairs(Columns):
         self.ledger = None if ledgers is None else Columns(ledgers.reshape(shape))
         self.method = asked["method"]
 
+    def __iter__(self) -> Iterator:
+        return iter((self.ez, self.ex))
+
+    def __len__(self):
+        return len(one_by_one(self.ez))
+
     def __getitem__(self, index: Any) -> Pairs:
+        one_by_one(self.ez)
         place = np.arange(self._records.size).reshape(self.shape)[index]
         some, (results, status, ledgers, messages) = np.ravel(place), self._solved
         messages = {i: messages[k] for i, k in enumerate(some.tolist()) if k in messages}
@@ -132,8 +140,8 @@ class Pairs(Columns):
         >>> from restitute import Material, errors
         >>> with warnings.catch_warnings():
         ...     warnings.simplefilter("ignore", errors.ModelLimitWarning)
-        ...     balls = pair(Material.elastic(1e6), radius=0.01, density=1000, speed=[0.1, 2],
-        ...                  speed_limit=1, radius_limit=0.2)
+        ...     balls = pair(Material.elastic(1e6), radius=0.01, density=1000, friction=0.3,
+        ...                  speed=[0.1, 2], speed_limit=1, radius_limit=0.2)
         >>> balls.limits()
         [('LARGE_CONTACT', 1,
           "1 of 2 impacts: contact radius above 0.2 of the sphere's, up to 0.33")]
@@ -271,15 +279,16 @@ def pair(material: Any = None, *, method: str = "euler", energies: bool = False,
         What deforms; of sphere 1 where `partner` is a Material.
     radius : float, m
     density, mass : float, kg/m^3, kg
-        Of sphere 1: one of them. Default the density of the material, unless `partner` is "rigid".
+        Of sphere 1: one of them. Default the density of `material`.
     inertia : float, kg m^2
         Default that of a solid sphere.
     radius2, density2, mass2, inertia2 : float
-        Of a partner sphere; default a wall. Infinite density or mass: held fast.
+        Of a partner sphere; default a wall. Its density: default that of its material, unless
+        `partner` is "rigid". Infinite density or mass: held fast.
     partner : "rigid", "same", Material, name, path, or array_like of them
         One body deforms (default), both of the same material, or both of unlike ones.
     friction : float, >= 0
-        Default 0; inf: no slip.
+        Required; inf: no slip.
     speed, angle : float, m/s, degrees in [0, 90)
         Of the centre, and between the velocity and the normal; or `normal_speed` and
         `tangential_speed`, m/s.

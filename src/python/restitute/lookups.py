@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from restitute import _library
-from restitute.values import span
+from restitute.values import one_by_one, span
 
 __all__ = ["TableContact", "TablePairs"]
 
@@ -40,7 +40,8 @@ class TableContact:
 
 
 class TablePairs:
-    """Pairs from a table. `ez, ex = table.pair(...)` takes them apart.
+    """Pairs from a table: as `restitute.Pairs`, `ez, ex = table.pair(...)` takes them apart, and
+    `pairs[1]` and `len` are as of the arrays.
 
     Attributes
     ----------
@@ -60,6 +61,14 @@ class TablePairs:
 
     def __iter__(self):
         return iter((self.ez, self.ex))
+
+    def __len__(self):
+        return len(one_by_one(self.ez))
+
+    def __getitem__(self, index: Any) -> TablePairs:
+        one_by_one(self.ez)
+        flags = self.flags
+        return TablePairs(self.ez[index], self.ex[index], None if flags is None else flags[index])
 
     def __reduce__(self):
         return TablePairs, (self.ez, self.ex, self.flags)

@@ -2,6 +2,7 @@
 """Linear-viscoelastic solids: of constants, from files, by name, of two unlike bodies."""
 from __future__ import annotations
 
+import json
 import math
 import os
 from functools import partial
@@ -13,7 +14,8 @@ from restitute import _library, errors
 from restitute._library import call, ffi
 from restitute.values import number, numbers, refuse
 
-__all__ = ["Material", "Series", "as_material", "material", "material_names"]
+__all__ = ["Material", "Series", "as_material", "document", "material", "material_names",
+           "write_file"]
 _FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "materials")
 
 
@@ -65,11 +67,14 @@ class Material:
     array([4000000., 1000000.])
     """
 
-    def __init__(self, handle: Any, name: str = "", source: str = "", model: str = "",
+    def __init__(self, handle: Any, *, name: str = "", source: str = "", model: str = "",
                  density: float = math.nan, parts: tuple[Material, Material] | None = None,
                  window: tuple[float, float] | None = None, temperature: float = math.nan,
                  wlf: tuple[float, float, float] | None = None,
                  wlf_range: tuple[float, float] = (-math.inf, math.inf)):
+        if not isinstance(handle, ffi.CData):
+            raise TypeError("Material(...): take restitute.material of a name or a file, or a "
+                            "constructor such as Material.elastic")
         self._handle = ffi.gc(handle, _library.core.restitute_material_destroy)
         self.name, self.source, self.model, self.parts = name, source, model, parts
         self.density, self.temperature = number("density", density), temperature
@@ -80,6 +85,12 @@ class Material:
 
     @classmethod
     def _made(cls, kind, about, *arguments, **constants) -> Material:
+        for name in about:
+            known = [*constants, "name", "source", "density", "window", "temperature", "wlf",
+                     "wlf_range"]
+            if name not in (*known, "model", "parts"):
+                raise TypeError(f"'{name}' is no keyword of Material.{kind}"
+                                f"{errors.suggestion(name, known)}")
         handle = ffi.new("restitute_material **")
         call(getattr(_library.core, f"restitute_material_{kind}"), *arguments,
              *(number(name, value) for name, value in constants.items()), handle)
@@ -181,10 +192,24 @@ class Material:
         handle = ffi.new("restitute_material **")
         call(_library.files.restitute_material_read, _library.string(path), handle, info)
         wlf = (info.wlf_c1, info.wlf_c2, info.wlf_reference)
-        return cls(handle[0], _library.text(info.name), _library.text(info.source),
-                   _library.text(info.model), info.density, temperature=info.temperature,
-                   wlf=None if math.isnan(info.wlf_c1) else wlf,
+        return cls(handle[0], name=_library.text(info.name), source=_library.text(info.source),
+                   model=_library.text(info.model), density=info.density,
+                   temperature=info.temperature, wlf=None if math.isnan(info.wlf_c1) else wlf,
                    wlf_range=(info.wlf_range[0], info.wlf_range[1]))
+
+    def save(self, path: str | os.PathLike) -> None:
+        """Write the file, path.json, that `restitute.material`, the command, C and the adapters
+        read: the series with all its digits, Poisson's ratio and, where known, density, window,
+        temperature and its shift.
+
+        >>> import os, tempfile
+        >>> rubber = Material.standard_solid(1e6, 3e6, 300.0, density=1100, window=(1e-5, 1))
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     rubber.save(os.path.join(folder, "rubber.json"))
+        ...     material(os.path.join(folder, "rubber.json")) == rubber
+        True
+        """
+        write_file(path, document(self))
 
     @property
     def poisson_ratio(self) -> float:
@@ -333,6 +358,56 @@ class Material:
         about = f"{self.name!r}, " if self.name else ""
         return (f"<restitute.Material {about}{self.model}, G(t) from {stiffest:.3g} to "
                 f"{s.equilibrium_modulus:.3g} Pa, nu = {self.poisson_ratio:.3g}>")
+
+
+def document(material: Material, constants: dict | None = None) -> dict[str, Any]:
+    """The content of a material file: of these constants of its model, or of its series."""
+    if material.parts:
+        raise errors.DomainError("two materials as one have no file: save each")
+    series = material.series
+    content: dict[str, Any] = {"name": _short(material.name or material.model, 127),
+                               "source": _short(material.source or "unknown", 511),
+                               "poisson_ratio": material.poisson_ratio, "model": "prony"}
+    if material.density > 0:
+        content["density_kg_m3"] = material.density
+    if material.temperature > -274:
+        content["temperature_c"] = material.temperature
+    if material.wlf:
+        content.update(zip(("wlf_c1", "wlf_c2_k", "wlf_reference_c"), material.wlf))
+        if material.wlf_range[1] < math.inf:
+            content["wlf_range_c"] = material.wlf_range
+    if material.window[1] < math.inf:
+        content["window_s"] = material.window
+    if constants:
+        content.update(model=material.model, **constants)
+    elif len(series.modulus):
+        terms = zip(series.relaxation_time.tolist(), series.modulus.tolist())
+        content.update(equilibrium_modulus_pa=series.equilibrium_modulus,
+                       parallel_viscosity_pa_s=series.parallel_viscosity,
+                       terms=[{"tau_s": tau, "modulus_pa": modulus} for tau, modulus in terms])
+    elif series.parallel_viscosity > 0:
+        content.update(model="kelvin_voigt", modulus1_pa=series.equilibrium_modulus,
+                       viscosity_pa_s=series.parallel_viscosity)
+    else:
+        content.update(model="elastic", modulus_pa=series.equilibrium_modulus)
+    return content
+
+
+def _short(text: str, most: int) -> str:
+    """As many letters as a material file takes."""
+    return text.encode(errors="replace")[:most].decode(errors="ignore")
+
+
+def write_file(path: str | os.PathLike, content: dict[str, Any]) -> None:
+    """Write a material file."""
+    if not os.fspath(path).endswith(".json"):
+        raise errors.DomainError(f"path = {os.fspath(path)!r}: must end in .json")
+    text = json.dumps(content, indent=2, ensure_ascii=False) + "\n"
+    try:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+    except OSError as why:
+        raise errors.FileError(f"{os.fspath(path)}: cannot be written: {why.strerror}") from None
 
 
 def _folder() -> str:

@@ -27,6 +27,7 @@ _RANGES = {"speed": (0, _MOST, "must be finite and > 0"),
            "angle": (-5e-324, np.nextafter(90, 0), "must be in [0, 90)"),
            "density": (0, _MOST, "must be finite and > 0"),
            "density2": (0, np.inf, "must be > 0 (inf: held fast)")}
+_LIGHT = 10  # kg/m^3: what is lighter was perhaps given in g/cm^3, in which all solids are
 
 
 class Impacts:
@@ -53,7 +54,8 @@ class Impacts:
 
     Examples
     --------
-    >>> ball = Impacts(Material.elastic(1e6), radius=[1e-3, 2e-3], density=1100, speed=0.1)
+    >>> ball = Impacts(Material.elastic(1e6), radius=[1e-3, 2e-3], density=1100, speed=0.1,
+    ...                friction=0.3)
     >>> ball.shape, ball.numbers().chi.round(3)
     ((2,), array([1.167, 1.167]))
     """
@@ -101,9 +103,10 @@ class Impacts:
         return columns
 
     def _scene_columns(self, material, values):
-        for name, value in (("material", material), ("radius", values.get("radius"))):
-            if value is None:
-                raise TypeError(f"{name} is missing")
+        for name, words in (("material", ""), ("radius", ": must be > 0"),
+                            ("friction", ": must be >= 0 (inf: no slip)")):
+            if {"material": material, **values}.get(name) is None:
+                raise TypeError(f"{name} is missing{words}")
         partner, shift = values.pop("partner", "rigid"), values.pop("time_shift", 1.0)
         self.solids, place, deformable = combine(material, partner, shift)
         number = {name: numbers(name, value, "biuf" if name == "rotation_blocked" else "iuf")
@@ -112,6 +115,7 @@ class Impacts:
         for name, allowed in _RANGES.items():
             if name in number:
                 self._in_range(name, number[name], *allowed)
+        _warn_of_light(number)
         own = ("radius2", "inertia2", "friction", "spin2", "rotation_blocked", "wave_density")
         columns = {name: number[name] for name in own if name in number}
         for name in ("radius", "inertia", "spin"):
@@ -135,7 +139,8 @@ class Impacts:
         return columns
 
     def _mass(self, number, body, place, deformable):
-        """Of a mass, a density, or the material's density where the body is sure to be of it."""
+        """Of a mass, a density, or the density of the body's material: of the material that is
+        given for sphere 1, and for sphere 2 where it is sure to be of one."""
         mass, density, radius = f"mass{body}", f"density{body}", number[f"radius{body}"]
         if mass in number and density in number:
             raise TypeError(f"{mass} and {density} are both given: one determines the other")
@@ -144,13 +149,16 @@ class Impacts:
         value = number.get(density)
         if value is None:
             known = [(m.parts or (m, m))[body == "2"].density for m in self.solids]
-            sure = (deformable == 2) | np.array([bool(m.parts) for m in self.solids])[place]
-            if not np.any(sure):
-                raise TypeError(f"{density} or {mass} is missing: must be > 0")
+            sure = (deformable == 2) | np.array([not body or bool(m.parts) for m in
+                                                 self.solids])[place]
             value = np.where(sure, np.array(known)[place], np.nan)
-            none = " (the material has none)"
-            self._checks.append((np.isnan(value) & np.isfinite(radius), lambda at: (
-                f"{density} or {mass} is missing: must be > 0{none if at(sure) else ''}")))
+            why = np.where(sure, "the material has none",
+                           "or partner='same': both spheres are of the material")
+            words = f"{density} or {mass} is missing: must be > 0"
+            if np.all(np.isnan(value)):
+                raise TypeError(f"{words} ({why.flat[0]})")
+            self._checks.append((np.isnan(value) & np.isfinite(radius),
+                                 lambda at: f"{words} ({at(why)})"))
         with np.errstate(all="ignore"):
             return 4 / 3 * np.pi * radius**3 * value
 
@@ -211,6 +219,15 @@ class Impacts:
 
     def __repr__(self):
         return f"<restitute.Impacts ({self.kind}) of shape {self.shape}>"
+
+
+def _warn_of_light(number):
+    for name in ("density", "density2"):
+        value = np.ravel(number.get(name, np.inf))
+        light = value[(value > 0) & (value < _LIGHT)]
+        if light.size:
+            _library.warn(f"{name} = {light[0]:g} kg/m^3 is less than a solid has; 1.15 g/cm^3 are "
+                          "1150 kg/m^3", errors.UnitWarning)
 
 
 def _kind(material, values):
@@ -321,11 +338,11 @@ def describe(impacts: Any = None, **keywords: Any) -> str:
     >>> rubber = Material.elastic(1e6, name="rubber")
     >>> describe("steel", partner=rubber, radius=0.005, speed=1, friction=0.3)
     'sphere of Structural steel, R = 5 mm, on a wall of rubber: 1 m/s, 0 degrees, friction 0.3'
-    >>> describe("steel", radius=0.005, density=2000, speed=1)
-    'rigid sphere, R = 5 mm, on a wall of Structural steel: 1 m/s, 0 degrees, friction 0'
-    >>> describe(rubber, radius=[0.001, 0.005], density=1100, speed=1, angle=30)
+    >>> describe("steel", radius=0.005, density=2000, speed=1, friction=0.3)
+    'rigid sphere, R = 5 mm, on a wall of Structural steel: 1 m/s, 0 degrees, friction 0.3'
+    >>> describe(rubber, radius=[0.001, 0.005], density=1100, speed=1, angle=30, friction=0.3)
     'sphere, R = 1 to 5 mm, on a wall, one of them of rubber, the other rigid: 1 m/s, 30 degrees,
-    friction 0'
+    friction 0.3'
     """
     if not isinstance(impacts, Impacts):
         impacts = Impacts(impacts, **keywords)

@@ -51,6 +51,8 @@ class Table:
     """
 
     def __init__(self, handle: Any):
+        if not isinstance(handle, ffi.CData):
+            raise TypeError("Table(...): take Table.load of a file, or Table.build of a contact")
         self._handle = ffi.gc(handle, _library.table.restitute_table_destroy)
         struct = _library.struct("table_info", "table")
         call(_library.table.restitute_table_describe, self._handle, struct)
@@ -128,6 +130,7 @@ class Table:
 
     def save(self, path: str | os.PathLike) -> None:
         """Write the table into an HDF5 file, whole or not at all (`FileError`)."""
+        not_text("path", path)
         call(_files().restitute_table_write, self._handle, _library.string(path))
 
     @classmethod
@@ -349,6 +352,13 @@ def _files():
             "the component table_files (HDF5) is not installed with this package: use pickle, or "
             "build from source")
     return _library.table_files
+
+
+def not_text(name: str, path: str | os.PathLike) -> None:
+    """Refuse the name of a text file for a table."""
+    if os.fspath(path).lower().endswith((".csv", ".json", ".txt")):
+        raise errors.DomainError(f"{name} = {os.fspath(path)}: a table is an HDF5 file, no text: "
+                                 "take .h5")
 
 
 def _struct(contact):

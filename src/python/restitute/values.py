@@ -10,8 +10,8 @@ import numpy as np
 
 from restitute.errors import DomainError, shown, suggestion
 
-__all__ = ["broadcast", "fit_shape", "number", "numbers", "one_of", "refuse", "span", "unmasked",
-           "whole"]
+__all__ = ["broadcast", "fit_shape", "number", "numbers", "one_by_one", "one_of", "refuse", "span",
+           "unmasked", "whole"]
 
 
 def numbers(name: str, value: Any, kinds: str = "iuf",
@@ -69,6 +69,14 @@ def one_of(name: str, value: Any, words: Iterable[str]) -> None:
     """Refuse a value that is not among these words."""
     if not isinstance(value, str) or value not in words:
         raise DomainError(f"{name} = {shown(value)}{suggestion(value, words)}")
+
+
+def one_by_one(values: Any) -> Any:
+    """Results of many impacts, which have a length and indices; those of one have none."""
+    if np.ndim(values) == 0:
+        raise TypeError("this is the result of one impact, without length and indices: take its "
+                        "ez and ex, or ez, ex = result")
+    return values
 
 
 def broadcast(columns: dict) -> tuple:

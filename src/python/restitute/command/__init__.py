@@ -7,8 +7,16 @@ import sys
 import warnings
 from importlib import import_module
 
-from restitute.command.options import Parser, Refusal, did_you_mean, emit, listed, say
-from restitute.errors import Error
+from restitute.command.options import (
+    Parser,
+    Refusal,
+    did_you_mean,
+    emit,
+    listed,
+    say,
+    signals_are,
+)
+from restitute.errors import Error, UnitWarning
 
 DONE, FAILED, USAGE, INTERRUPTED, BROKEN_PIPE = 0, 1, 2, 130, 141
 # Subcommand, its module, what it does.
@@ -22,6 +30,7 @@ COMMANDS = {
     "cite": ("cite", "what to cite: the paper, this software, the sources of materials"),
 }
 OLD_NAMES = {"sweep": "paper"}
+_said: set = set()  # remarks
 _LICENCES = {"bem": ("FFTW", 2, "method"), "fit": ("GSL", 3, "command")}
 
 
@@ -42,7 +51,9 @@ def main(words=None):
     if words is None:
         _prepare_process()
         words = sys.argv[1:]
+    _said.clear()
     with warnings.catch_warnings():
+        warnings.simplefilter("always", UnitWarning)
         warnings.showwarning = _remark
         try:
             return _run(list(words))
@@ -84,6 +95,8 @@ def _run(words):
         except SystemExit:  # help was printed
             return DONE
         arguments.command_line = ["restitute", *words]
+        with signals_are(_leave):
+            import_module("numpy")
         return module.run(arguments)
     else:
         wrong = f'unknown command "{word[:64]}": must be' if word else "a command is missing:"
@@ -134,7 +147,14 @@ def _interrupt(number, frame):
     raise KeyboardInterrupt
 
 
+def _leave(number, frame):
+    """Where nothing is open yet: NumPy would print an exception that comes while it is imported."""
+    os._exit(INTERRUPTED)
+
+
 def _remark(message, category, filename, lineno, file=None, line=None):
-    """Warnings of the package as remarks; those of others, for programmers, are not shown."""
-    if category.__module__.partition(".")[0] == "restitute":
+    """Warnings of the package as remarks, each once; those of others, for programmers, are not
+    shown."""
+    if category.__module__.partition(".")[0] == "restitute" and str(message) not in _said:
+        _said.add(str(message))
         say(f"remark: {message}")

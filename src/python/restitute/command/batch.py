@@ -17,6 +17,7 @@ from restitute.command.options import Refusal, say
 from restitute.command.partial import Partial
 from restitute.command.rows import Rows
 from restitute.errors import Error
+from restitute.values import span
 
 DONE, FAILED, INTERRUPTED = 0, 1, 130
 _NAMED_FAILURES = 5
@@ -96,7 +97,7 @@ class _Batch:
         self.settings = provenance.settings(arguments, {"input": source, **{
             name: {text: provenance.of_material(text) for text in texts}
             for name, texts in materials.items()}})
-        self.rows = Rows(self.cases, self.solution["method"])
+        self.rows = Rows(self.cases, self.given, self.solution["method"])
         if other:
             say(f"remark: {self.cases.source}: passed through as unknown: {', '.join(other)}")
 
@@ -187,7 +188,7 @@ class _Batch:
         """What is written when all rows are there."""
         remarks, limits = self.rows.remarks()
         record = provenance.record(
-            self.arguments, self.settings, self.rows.units(self.given), rows=self.cases.rows,
+            self.arguments, self.settings, self.rows.units(), rows=self.cases.rows,
             failed=int(np.count_nonzero(~self.rows.solved)), remarks=remarks, limits_passed=limits)
         with options.signals_are(signal.SIG_IGN):
             if self.arguments.format != "csv":
@@ -200,16 +201,23 @@ class _Batch:
 
     def report(self):
         """What is to be said of all rows, the figure, and the exit status."""
-        from restitute.impact import LIMITS
+        from restitute.impact import LIMITS, soft_contact
 
-        of = f"of {self.cases.rows} rows"
+        of, flags = f"of {self.cases.rows} rows", self.rows.flags()
+        columns = dict(zip(self.rows.numbers, self.rows.values))
         remarks, limits = self.rows.remarks()
         for remark, count in remarks.items():
             say(f"remark: {count} {of}: {remark}")
-        for _, name, option, _, words in LIMITS:
-            if name in limits:
-                say(f"remark: {limits[name]} {of} pass the limit {name}: "
-                    f"{words.format(getattr(self.limits, option)) if option else words}")
+        for bit, name, option, member, words in LIMITS:
+            if name not in limits:
+                continue
+            text = words.format(getattr(self.limits, option)) if option else words
+            if member in columns:
+                values = columns[member][(flags & bit) != 0]
+                text += f": {span(values, ' s', digits=3)}" if not option else \
+                    f", up to {values.max():.3g} ({soft_contact(values.max())})"
+            verb = "exceed the limit" if option else "are flagged"
+            say(f"remark: {limits[name]} {of} {verb} {name}: {text}")
         if self.arguments.figure:
             self._draw()
         failed = np.count_nonzero(~self.rows.solved)

@@ -16,8 +16,8 @@ _QUOTES = {"unexpected end of data": "a quote is never closed",
            "',' expected after '\"'": "text behind the quote that ends a cell; within a cell a "
            "quote is written twice"}
 _DIGITS = b"0123456789+-.eE\n"
-RESULTS = ("ez", "ex", "contact_time", "max_indentation", "error_ez", "error_ex", "method",
-           "status")
+RESULTS = ("ez", "ex", "contact_time", "max_indentation", "radius_ratio", "error_ez", "error_ex",
+           "method", "status")  # in dimensionless numbers there is no radius_ratio
 
 
 # -------------------------------------------------------------------------------- tables of text
@@ -244,7 +244,7 @@ class Cases:
 
         special = {"material": restitute.Material.elastic(1e6, density=1e3), "partner": "rigid",
                    "rotation_blocked": False, "shore_a": 50.0, "poisson_ratio": 0.3,
-                   "temperature": 25.0}
+                   "temperature": 25.0, "density": 1e3, "density2": 1e3}
         values = {name: special.get(name, 1.0) for name in self.known}
         for one, alternative in problem.EXCLUSIVE:
             if one in values:
@@ -253,8 +253,6 @@ class Cases:
             values["delta1"] = 0.0
         if "radius2" in values and not {"density2", "mass2"} & {*values, *given}:
             values["mass2"] = np.inf
-        if "material" in values and not {"density", "mass"} & {*values, *given}:
-            values["density"] = 1e3
         return values
 
     def read(self):

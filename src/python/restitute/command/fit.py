@@ -7,7 +7,7 @@ from restitute.command.options import Refusal, bounded, number, one_of, say, sho
 
 DONE, FAILED = 0, 1
 _EPILOG = """Examples:
-  restitute fit --input drop.csv --radius 0.01 --density 7800 --output rubber.json \\
+  restitute fit --input drop.csv --radius 0.01 --density 1100 --output rubber.json \\
       --figure rubber.svg
   restitute fit --dma curve.csv --output rubber.json
 
@@ -16,6 +16,9 @@ square of ez); speed_m_s, or drop_height_m; and optional ex, angle_deg, contact_
 temperature_c, weight, sigma_ez, sigma_ex, sigma_contact_time_s, friction, partner, radius_m,
 mass_kg, density_kg_m3 and the others of restitute pair. With ex and without friction, friction is
 fitted. Columns of CURVE.csv: frequency_hz, storage_pa, loss_pa and optional temperature_c.
+
+FILE.json has the constants, the window of times of the data, and the density of the sphere, which
+is taken to be of the fitted solid: if the wall is what deforms, give --mass and not --density.
 
 Exit status: 0 done, 1 done, but the data do not follow the model or leave constants open (remarks
 say which), 2 bad usage or input, nothing written, 130 interrupted.
@@ -55,7 +58,8 @@ def add(subparsers):
     for row in (
             ("model", "NAME", "elastic, kelvin_voigt, standard_solid (default), maxwell or prony",
              one_of("elastic", "kelvin_voigt", "standard_solid", "maxwell", "prony")),
-            ("terms", "TAU,...", "relaxation times of the model prony, s, 1 to 20", _read_terms),
+            ("terms", "TAU,...", "relaxation times of the model prony, s (not how many: 1e-4,1e-2 "
+             "are two terms), 1 to 20", _read_terms),
             ("known", "NAME=VALUE,...", "constants that are not fitted: modulus1, modulus2, "
              "modulus, viscosity; equilibrium, term1, term2, ...; in place of the first also "
              "youngs_modulus, E = 2 (1+nu) G, and shore_a, of which Gent (1958) makes E (see "
@@ -80,6 +84,9 @@ def add(subparsers):
 
 
 def _read_terms(text, place):
+    if text.isdecimal():
+        raise Refusal(f"{place} = {text}: must be relaxation times, s, not how many, as 1e-4,1e-2 "
+                      f"({text}.0 for one of {text} s)")
     times = [bounded(1e-30, 1e30)(item, place) for item in text.split(",")]
     if len(times) > 20:
         raise Refusal(f"{place}: more than 20 relaxation times")
@@ -110,6 +117,7 @@ def _read_wlf(text, place):
 
 def run(arguments):
     """Fit, and write report, material file and figure."""
+    import restitute
     from restitute import _library
     from restitute.command import measured
 
@@ -119,18 +127,16 @@ def run(arguments):
     path = arguments.input or arguments.dma
     if arguments.name is None:
         arguments.name = os.path.basename(path)
-    rows, density = measured.Rows(path, _DROP if arguments.input else _CURVE), None
+    rows = measured.Rows(path, _DROP if arguments.input else _CURVE)
     if "temperature" not in rows.numbers and {"wlf", "reference_temperature"} & \
             arguments.given.keys():
         raise Refusal(f"--wlf, --reference-temperature: {rows.source} has no column temperature_C")
     if arguments.input:
-        scene = measured.scene_of(rows, arguments)
-        fit = _fit_drops(rows, scene, arguments)
-        if isinstance(scene.get("partner"), str) and scene["partner"] == "same":
-            density = arguments.density
+        fit = _fit_drops(rows, measured.scene_of(rows, arguments), arguments)
     else:
         fit = _fit_curve(rows, arguments)
-    _write(arguments, rows, fit, density)
+    fit.material.source = f"restitute {restitute.version()} fit of {rows.source}: {fit.summary}"
+    _write(arguments, rows, fit)
     for remark in fit.remarks:
         say(f"remark: {remark}")
     return DONE if fit.is_good else FAILED
@@ -179,6 +185,8 @@ def _fit_drops(rows, scene, arguments):
     numbers = rows.numbers
     if "speed" not in scene and "drop_height" not in numbers:
         raise Refusal(f"{rows.source}: column speed_m_s (or drop_height_m) is missing")
+    if (arguments.model == "prony") != bool(arguments.terms):
+        raise Refusal("--terms and --model prony belong together")
     if not numbers.keys() & {"ez", "rebound_height", "rebound_ratio", "ex", "contact_time"}:
         raise Refusal(f"{rows.source}: column ez (or rebound_height_m, rebound_ratio, ex, "
                       "contact_time_s) is missing")
@@ -191,8 +199,8 @@ def _fit_drops(rows, scene, arguments):
     partners = {word: word if word in ("rigid", "same") else problem.material_of(word)
                 for word in words}
     few = len(rows.table.lines) < 200
-    settings = {"threads": 1 if few else len(os.sched_getaffinity(0)),
-                **_given(arguments, (*_OF_DROPS, *_OF_BOTH)), "known": _known(arguments)}
+    settings: dict = {"threads": 1 if few else len(os.sched_getaffinity(0)),
+                      **_given(arguments, (*_OF_DROPS, *_OF_BOTH))}
     show, scene = _progress(), {**scene, "partner": np.array([partners[w] for w in words], object)}
     try:
         return restitute.fit_drop_test(**numbers, **scene, **settings, name=arguments.name,
@@ -201,30 +209,6 @@ def _fit_drops(rows, scene, arguments):
         raise rows.in_words(why) from None
     finally:
         show(None)
-
-
-def _known(arguments):
-    """The known constants, with a shear modulus in place of E or hardness."""
-    from restitute import shear_modulus
-    from restitute.fitting import MODELS
-
-    known, nu = dict(arguments.known or {}), arguments.poisson_ratio
-    first, *others = MODELS[arguments.model or "standard_solid"]
-    terms = [f"term{k + 1}" for k in range(len(arguments.terms or ()))]
-    if (first == "equilibrium") != bool(terms):
-        raise Refusal("--terms and --model prony belong together")
-    for name, keyword in (("youngs_modulus", "youngs"), ("shore_a", "shore_a")):
-        if name in known:
-            if first in known:
-                raise Refusal(f"--known: {first} and {name} are both given")
-            known[first] = float(shear_modulus(**{keyword: known.pop(name)},
-                                               poisson_ratio=0.5 if nu is None else nu))
-    allowed = [first, *others, *terms]
-    for name in known:
-        if name not in allowed:
-            raise Refusal(f'--known: "{name[:40]}" is no constant of this model: must be one of '
-                          f"{options.listed(allowed)}")
-    return known
 
 
 def _progress():
@@ -255,8 +239,10 @@ def _fit_curve(rows, arguments):
 # ----------------------------------------------------------------------------------------- output
 
 
-def _write(arguments, rows, fit, density):
+def _write(arguments, rows, fit):
     """Material file with its record, figure, and the report at last: all of them or none."""
+    import numpy as np
+
     from restitute import version
     from restitute.command import files, provenance
 
@@ -274,31 +260,18 @@ def _write(arguments, rows, fit, density):
         settings = {"version": version(), "input": rows.source,
                     "fingerprint": provenance.fingerprint(rows.table.content)}
         record = provenance.record(arguments, settings, {}, fit=report)
-        outputs = [(arguments.output, provenance.text(_material_file(rows, fit, density))),
+        outputs = [(arguments.output, provenance.text(fit.document())),
                    (files.beside(arguments.output, ".meta.json"), provenance.text(record))]
     if arguments.figure:
         outputs.append((arguments.figure, files.image(_figure(arguments, fit), arguments.figure)))
-    files.write(*outputs, (None, f"{shown(rows.source)}: {fit.model}\n\n{fit}\n"))
-
-
-def _material_file(rows, fit, density):
-    """The file that every other command reads."""
-    from restitute import version
-
-    source = f"restitute {version()} fit of {rows.source[:200]}: {fit.summary}"
-    content = {"name": fit.material.name[:127], "source": source[:511], "model": fit.model,
-               "poisson_ratio": fit.material.poisson_ratio}
-    if density is not None:
-        content["density_kg_m3"] = density
-    if fit.model == "prony":
-        series = fit.material.series
-        content["terms"] = [{"tau_s": tau, "modulus_pa": modulus} for tau, modulus in
-                            zip(series.relaxation_time.tolist(), series.modulus.tolist())]
-        content["equilibrium_modulus_pa"] = series.equilibrium_modulus
-    else:
-        content.update((name, value) for name, value in zip(fit.names, fit.value.tolist())
-                       if "modulus" in name or "viscosity" in name)
-    return content
+    said = f"{shown(rows.source)}: {fit.model}\n\n{fit}\n"
+    if arguments.output:
+        density, (low, high) = fit.material.density, fit.material.window
+        said += (f"  {shown(arguments.output)}: "
+                 + (f"density {density:g} kg/m^3, that of the sphere" if density > 0 else
+                    "without density")
+                 + (f", measured from {low:.3g} to {high:.3g} s\n" if high < np.inf else "\n"))
+    files.write(*outputs, (None, said))
 
 
 def _figure(arguments, fit):

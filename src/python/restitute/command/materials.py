@@ -39,6 +39,7 @@ def run(arguments):
     """List the materials, or show one."""
     import restitute
     from restitute.command import files, provenance
+    from restitute.materials import document
 
     word, name = arguments.what, arguments.material
     if name is not None and word != "show":
@@ -61,7 +62,8 @@ def run(arguments):
     material = restitute.material(word, temperature=arguments.temperature)
     if arguments.temperature is not None:
         material.source += f"; relaxation times at {arguments.temperature:g} C"
-    text = _file(material) if arguments.format == "json" else _page(material)
+    text = (provenance.text(document(material)) if arguments.format == "json" else
+            _page(material))
     if arguments.figure:
         files.write((arguments.figure, files.image(_figure(material), arguments.figure)),
                     (None, text))
@@ -138,42 +140,6 @@ def _moduli(series):
     """Instantaneous and equilibrium modulus."""
     stiff = series.equilibrium_modulus + series.modulus.sum()
     return float("inf") if series.parallel_viscosity > 0 else stiff, series.equilibrium_modulus
-
-
-def _short(text):
-    """As many letters as a material file takes."""
-    return text.encode()[:511].decode(errors="ignore")
-
-
-def _file(material):
-    """A material file."""
-    import json
-
-    series = material.series
-    content = {"name": material.name or material.model,
-               "source": _short(material.source or "unknown"),
-               "poisson_ratio": material.poisson_ratio, "model": "prony"}
-    if material.density > 0:
-        content["density_kg_m3"] = material.density
-    if material.temperature > -274:
-        content["temperature_c"] = material.temperature
-    if material.wlf:
-        content.update(zip(("wlf_c1", "wlf_c2_k", "wlf_reference_c"), material.wlf))
-        if material.wlf_range[1] < float("inf"):
-            content["wlf_range_c"] = material.wlf_range
-    if material.window[1] < float("inf"):
-        content["window_s"] = material.window
-    if len(series.modulus):
-        terms = zip(series.relaxation_time.tolist(), series.modulus.tolist())
-        content.update(equilibrium_modulus_pa=series.equilibrium_modulus,
-                       parallel_viscosity_pa_s=series.parallel_viscosity,
-                       terms=[{"tau_s": tau, "modulus_pa": modulus} for tau, modulus in terms])
-    elif series.parallel_viscosity > 0:
-        content.update(model="kelvin_voigt", modulus1_pa=series.equilibrium_modulus,
-                       viscosity_pa_s=series.parallel_viscosity)
-    else:
-        content.update(model="elastic", modulus_pa=series.equilibrium_modulus)
-    return json.dumps(content, indent=2, ensure_ascii=False) + "\n"
 
 
 def _page(material):

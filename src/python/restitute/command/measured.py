@@ -53,6 +53,8 @@ class Rows:
     def in_words(self, why):
         """What the library says of points[i] or row[i], of the line and the column of the file."""
         text = str(why)
+        if text.startswith("known: "):
+            return Refusal("--" + text.replace("'", "\""))
         found = re.fullmatch(r"(?:points|row)\[(\d+)\][.: ]*(\w*)(.*)", text, re.S)
         if found is None:
             return Refusal(f"{self.source}: {problem.in_words_of(self.place, text)}")

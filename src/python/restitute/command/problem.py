@@ -231,6 +231,7 @@ def in_words_of(place, text):
     """A message of the package with the user's names of the fields in its first part."""
     fields, colon, rest = text.partition(":")
     names = rf"(?<!\ba )(?<!/)\b({'|'.join(FIELDS)})\b(?!\.\w)|^(material|partner)\b(?!\.)"
+    rest = rest.replace("partner='same'", f"{place('partner')} same")
     return re.sub(names, lambda word: place(word[0]), fields) + colon + rest
 
 
@@ -282,10 +283,7 @@ def keywords(values, place):
 
 
 def _complete(given, place):
-    """The material of moduli, and the density of a sphere that is of a material.
-
-    Against a rigid partner the sphere is what is of the material, unless its density is given.
-    """
+    """The material of moduli, or at a temperature."""
     moduli = [name for name in SOLID[:-2] if name in given]
     if "temperature" in given and "material" not in given:
         raise Refusal(f"{place('temperature')}: needs {place('material')}")
@@ -296,12 +294,6 @@ def _complete(given, place):
             raise _missing(name, place)
     if "material" not in given:
         given["material"] = _solid({name: given.pop(name) for name in moduli}, place)
-    elif not given.keys() & {"density", "mass"}:
-        given["density"] = _each(lambda name: material_of(name).density, given["material"])
-        if not (given["density"] > 0 if isinstance(given["density"], float) else
-                (given["density"] > 0).all()):
-            raise Refusal(f"{place('density')} or {place('mass')} is missing: must be > 0 (the "
-                          "material gives no density)")
     if "temperature" in given:
         try:
             given["material"] = _each(material_of, given["material"], given.pop("temperature"))
@@ -350,8 +342,8 @@ def read_material(text, place):
     """What names a material: a file, or a name."""
     if text.endswith((".json", ".csv")) or text in names():
         return text
-    raise Refusal(f'{place} = "{text[:64]}": must end in .json or .csv, or be one of '
-                  f"{', '.join(names())}{did_you_mean(text, names())}")
+    meant = did_you_mean(text, names()) or f": one of {', '.join(names())}"
+    raise Refusal(f'{place} = "{text[:64]}": must end in .json or .csv, or be a name{meant}')
 
 
 @cache

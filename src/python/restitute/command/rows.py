@@ -15,22 +15,26 @@ _INFINITY = float("inf")
 # What a number that is read back must be.
 _RANGES = {"ez": (0, 1, "must be in [0, 1]"), "ex": (-1, 1, "must be in [-1, 1]"),
            "contact_time": (0, _INFINITY, "must be >= 0 (inf: no rebound)"),
-           **dict.fromkeys(RESULTS[3:6], (0, _INFINITY, "must be >= 0"))}
+           **dict.fromkeys(RESULTS[3:-2], (0, _INFINITY, "must be >= 0"))}
 
 
 class Rows:
-    """Results of cases: `values`, the six numbers of RESULTS a row, nan where it is not `solved`,
-    and its `status`: remarks and the limits of the model that are passed, or why it failed."""
+    """Results of cases: `values`, the `numbers` of a row, nan where it is not `solved`, and its
+    `status`: remarks and the limits of the model that are passed, or why it failed. `given` are the
+    names that options give."""
 
-    def __init__(self, cases, method):
+    def __init__(self, cases, given, method):
         self.cases, self.method = cases, method
-        self.values = np.full((len(_RANGES), cases.rows), np.nan)
+        self.physical = not {*cases.known, *given} <= set(problem.DIMENSIONLESS)
+        self.names = [name for name in RESULTS if self.physical or name != "radius_ratio"]
+        self.numbers = self.names[:-2]
+        self.values = np.full((len(self.numbers), cases.rows), np.nan)
         self.solved = np.zeros(cases.rows, bool)
         self.status = np.full(cases.rows, "", object)
 
     def take(self, rows, pairs):
         """The results of `restitute.pair` for these rows."""
-        for value, name in zip(self.values, RESULTS):
+        for value, name in zip(self.values, self.numbers):
             value[rows] = getattr(pairs, name)
         self.solved[rows], self.status[rows] = pairs.status >= 0, pairs.words()
         for row in rows[pairs.status < 0]:
@@ -60,7 +64,7 @@ class Rows:
 
     def header(self):
         """The first line."""
-        return csv_row([*self.cases.names, *RESULTS])
+        return csv_row([*self.cases.names, *self.names])
 
     def lines(self, begin, end):
         """Rows [begin, end) as they are written."""
@@ -73,7 +77,7 @@ class Rows:
     def read(self, path):
         """Take rows that were written before; returns how many there are. If they are not what this
         run writes, a Refusal names line, column and value."""
-        table, wanted = Table(path, rows_needed=False), [*self.cases.names, *RESULTS]
+        table, wanted = Table(path, rows_needed=False), [*self.cases.names, *self.names]
         if len(table.names) != len(wanted):
             raise Refusal(f"{path}: has {len(table.names)} columns: must be {len(wanted)}")
         for i, (name, must) in enumerate(zip(table.names, wanted)):
@@ -103,7 +107,8 @@ class Rows:
                 yield i, f'method = "{cell[:64]}": must be {self.method}'
             elif not cell and not text:
                 yield i, "method and status are empty: neither solved nor failed"
-        for k, (name, (low, high, words)) in enumerate(_RANGES.items()):
+        for k, name in enumerate(self.numbers):
+            low, high, words = _RANGES[name]
             texts = list(dict.fromkeys(columns[k]))
             known = dict(zip(texts, numbers(texts, options.number)[0].tolist()))
             value = np.array([known[cell] for cell in columns[k]])
@@ -118,13 +123,12 @@ class Rows:
 
     # ------------------------------------------------------------------------------ other formats
 
-    def units(self, given):
-        """The unit of each column that has one; `given` are the names that options give."""
+    def units(self):
+        """The unit of each column that has one."""
         fields = {name: problem.field_of_column(name) for name in self.cases.names}
-        physical = not {*self.cases.known, *given} <= set(problem.DIMENSIONLESS)
         return {**{name: field.unit for name, field in fields.items() if field},
-                **dict.fromkeys(_RANGES, "1"), "contact_time": "s" if physical else "T",
-                "max_indentation": "m" if physical else "d0"}
+                **dict.fromkeys(self.numbers, "1"), "contact_time": "s" if self.physical else "T",
+                "max_indentation": "m" if self.physical else "d0"}
 
     def json(self, record):
         """The record and all rows, one a line."""
@@ -135,7 +139,7 @@ class Rows:
         columns += [[_json(value) for value in values.tolist()] for values in self.values]
         columns.append([json.dumps(self.method) if good else "null" for good in self.solved])
         columns.append([_json(text) for text in self.status])
-        members = (json.dumps(name).replace("%", "%%") for name in [*self.cases.names, *RESULTS])
+        members = (json.dumps(name).replace("%", "%%") for name in [*self.cases.names, *self.names])
         row = "    {" + ", ".join(f"{member}: %s" for member in members) + "}"
         meta = provenance.text({"meta": record}).decode("utf-8")
         return meta[:-3] + ',\n  "results": [\n' + ",\n".join(map(row.__mod__, zip(*columns))) \
@@ -145,7 +149,7 @@ class Rows:
         """The bytes of an HDF5 file: a dataset for each column, the record as an attribute."""
         h5py = options.need("h5py", "--output")
         columns = {name: self.cases.column(i) for i, name in enumerate(self.cases.names)}
-        columns.update(zip(_RANGES, self.values), status=self.status)
+        columns.update(zip(self.numbers, self.values), status=self.status)
         text = h5py.string_dtype()
         return files.hdf5({
             name.replace("/", " per "): values if values.dtype != object else

@@ -19,8 +19,8 @@ Columns of CASES.csv:
 {columns}
 rotation_blocked is 0 or 1. Options give the values of columns that are absent. A result row holds
 the input columns, then ez, ex, contact_time, max_indentation (s and m; T and d0 if dimensionless),
-error_ez, error_ex, method and status, which is empty or tells why the row failed. Provenance goes
-into FILE.meta.json.
+radius_ratio (largest contact radius over R; in SI units), error_ez, error_ex, method and status,
+which is empty or tells why the row failed. Provenance goes into FILE.meta.json.
 
 ez, ex: minus the velocity after over the velocity before, normal and tangential, of the contact
 point. Exit status: 0 done, 1 some rows failed, 2 bad usage or input, nothing written, 130
@@ -204,13 +204,13 @@ def _numerics(impact, result):
 
 def _csv(arguments, impact, result, record):
     """The options given become the input columns."""
-    from restitute.command.cases import csv_row
+    from restitute.command.cases import RESULTS, csv_row
 
     row = {problem.FIELDS[name].key if name in problem.FIELDS else name:
            "1" if value is True else value if isinstance(value, str) else number_text(value)
            for name, value in problem.values_of(arguments).items()}
-    row.update((name, number_text(getattr(result, name))) for name in (
-        "ez", "ex", "contact_time", "max_indentation", "error_ez", "error_ex"))
+    row.update((name, number_text(getattr(result, name))) for name in RESULTS[:-2]
+               if name != "radius_ratio" or impact.kind == "scene")
     row.update(method=result.method, status=result.words()[()])
     return csv_row(row) + csv_row(row.values())
 

@@ -129,12 +129,14 @@ def _build(arguments):
 
 def _check_output(arguments):
     from restitute.command import files
+    from restitute.table import not_text
 
     output, speed = arguments.output, arguments.speed
     if output is None:
         raise Refusal("--output is missing: the table's file")
     if files.is_stream(output):
         raise Refusal(f"--output = {output}: a table needs a file")
+    not_text("--output", output)
     if arguments.figure:
         options.need("matplotlib", "--figure")
         if speed and speed[0] >= speed[1]:
