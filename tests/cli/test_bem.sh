@@ -26,7 +26,7 @@ if have_module h5py; then
     fi
 fi
 absent f.h5.tmp
-refused 'needs --method bem' history --psi 0.7 --fields f.h5
+refused '--fields: need the method bem' history --psi 0.7 --fields f.h5
 refused 'must end in .h5 or .hdf5' history --psi 0.7 --method bem --fields f.csv
 refused 'no instantaneous modulus' pair --psi 0.7 --delta1 1 --gamma 0 --method bem
 expect 0 pair --material "$materials/polyisobutylene.json" --radius 0.005 --density 7800 --friction 0.3 --velocity 1 --angle 30 \

@@ -56,24 +56,25 @@ refused '--format = "json"' table query t.h5 --normal-speed 1 --format json
 
 # Beyond the range the ends are taken, and limits that are passed are said.
 expect 0 table query t.h5 --normal-speed 2
-has err 'warning: normal_speed_m_s is outside'
+has err "remark: the normal speed is outside the table's range"
 expect 0 table build $scene --speed 1 --tolerance 1e-3 --output one.h5
 expect 0 table query one.h5 --normal-speed 2
-has err 'warning: normal_speed_m_s is outside'
+has err "remark: the normal speed is outside the table's range"
 expect 0 table query t.h5 --normal-speed 1 --tangential-speed 1000
-has err 'warning: the sphere slides far'
+has err 'remark: sliding distance above 0.3 of the contact radius'
 
 # Cells with commas and quotes come back as they were.
 printf 'name,normal_speed_m_s\n"a, ""b""",3\n' >quoted.csv
 expect 0 table query t.h5 --input quoted.csv
 has out '"a, ""b""",3,'
-has err 'whose ends are taken: 1'
+has err "the normal speed is outside the table's range, 0.1 to 1 m/s, whose ends are taken"
 
 # The figure.
 if have_module matplotlib; then
     expect 0 table build $scene --speed 0.01:10 --tolerance 1e-3 --output f.h5 --figure f.svg
     has f.svg '<svg' 'slide'
 fi
+refused 'a table is an HDF5 file, not CSV: take .h5' table build $scene --output x.csv
 refused '--figure' table build $scene --output x.h5 --figure x.txt
 refused 'no curves' table build $scene --speed 1 --output x.h5 --figure x.svg
 [ -e x.h5 ] && fail "refused, and written"

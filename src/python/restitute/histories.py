@@ -121,7 +121,7 @@ def history(material: Any = None, *, samples: int = 500, method: str | None = No
         raise errors.DomainError(f"events: the method {method} logs none; must be cvode, "
                                  "cvode-bdf or cvode-adams")
     if whole("fields", fields, 0, 1000) and method != "bem":
-        raise errors.DomainError(f"fields = {fields}: need the method bem, not {method}")
+        raise errors.DomainError(f"fields: need the method bem, not {method}")
     whole("samples", samples, 2, 10**9)
     asked = {"method": method, **settings}
     value = options(**asked)

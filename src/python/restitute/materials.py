@@ -12,11 +12,12 @@ import numpy as np
 
 from restitute import _library, errors
 from restitute._library import call, ffi
+from restitute._places import MATERIALS
 from restitute.values import number, numbers, refuse
 
 __all__ = ["Material", "Series", "as_material", "document", "material", "material_names",
            "write_file"]
-_FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "materials")
+_FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), MATERIALS)
 
 
 class Series(NamedTuple):

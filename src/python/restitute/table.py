@@ -130,7 +130,7 @@ class Table:
 
     def save(self, path: str | os.PathLike) -> None:
         """Write the table into an HDF5 file, whole or not at all (`FileError`)."""
-        not_text("path", path)
+        not_csv("path", path)
         call(_files().restitute_table_write, self._handle, _library.string(path))
 
     @classmethod
@@ -285,8 +285,9 @@ class Table:
                 place = f"{list(map(int, np.unravel_index(i, shape)))}: " if shape else ""
                 raise _library.exception(status, place + _library.message_of(error))
         if beyond:
-            _library.warn(f"{beyond} of {count} impacts are outside the table's range, whose ends "
-                          "are taken", errors.ModelLimitWarning)
+            which = f"{beyond} of {count} impacts are" if count > 1 else "the impact is"
+            _library.warn(f"{which} outside the table's range, whose ends are taken",
+                          errors.ModelLimitWarning)
         first, second = after((first, second), bodies, shape, [])
         return first, second, TablePairs(ez.reshape(shape)[()], ex.reshape(shape)[()])
 
@@ -329,16 +330,17 @@ class Table:
         outside = int(np.count_nonzero(self.beyond(normal, contact)))
         if outside:
             low, high = (end / (contact.speed_factor if contact else 1) for end in self.speed)
-            _library.warn(f"{outside} of {normal.size} normal speeds are outside the table's "
-                          f"range, {low:.6g} to {high:.6g} m/s, whose ends are taken",
-                          errors.ModelLimitWarning)
+            which = (f"{outside} of {normal.size} normal speeds are" if normal.size > 1 else
+                     "the normal speed is")
+            _library.warn(f"{which} outside the table's range, {low:.6g} to {high:.6g} m/s, whose "
+                          "ends are taken", errors.ModelLimitWarning)
         flags = self.flags(normal, sliding, contact)
         for bit, _, option, _, words in LIMITS:
             count = int(np.count_nonzero(flags & bit))
             if count:
+                which = f"{count} of {flags.size} impacts: " if flags.size > 1 else ""
                 limit = self.data[option] if option else 0
-                _library.warn(f"{count} of {flags.size} impacts: {words.format(limit)}",
-                              errors.ModelLimitWarning)
+                _library.warn(which + words.format(limit), errors.ModelLimitWarning)
 
     def __repr__(self):
         low, high = self.speed
@@ -354,10 +356,10 @@ def _files():
     return _library.table_files
 
 
-def not_text(name: str, path: str | os.PathLike) -> None:
-    """Refuse the name of a text file for a table."""
-    if os.fspath(path).lower().endswith((".csv", ".json", ".txt")):
-        raise errors.DomainError(f"{name} = {os.fspath(path)}: a table is an HDF5 file, no text: "
+def not_csv(name: str, path: str | os.PathLike) -> None:
+    """Refuse a name ending in .csv for a table."""
+    if os.fspath(path).lower().endswith(".csv"):
+        raise errors.DomainError(f"{name} = {os.fspath(path)}: a table is an HDF5 file, not CSV: "
                                  "take .h5")
 
 

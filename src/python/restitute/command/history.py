@@ -18,7 +18,6 @@ _EVENTS = ("time", "event", "position", "indentation", "normal_velocity", "tange
            "elements")
 _FIELDS = {"time": "T", "spacing": "a_el", "pressure": "G_r d0/a_el",
            "traction": "G_r d0/a_el times friction", "stick": "1 sticks, 0 does not"}
-_SNAPSHOTS = 9
 _EPILOG = """Example:
   restitute history --material polyisobutylene --radius 0.005 --density 7800 --friction 0.3 \\
       --speed 0.05 --angle 30 --output impact.csv --figure impact.svg
@@ -40,8 +39,8 @@ def add(subparsers):
                 "1000000; default 500", options.bounded(2, 1e6, whole=True))
     options.add(group, "output", "FILE", "write the CSV here and not to standard output")
     options.add(group, "events", "FILE", "write the log of events here, as CSV (.csv, or - for "
-                "standard output) or HDF5 (.h5, .hdf5); takes the method cvode",
-                options.ending(".csv", ".h5", ".hdf5", stream="; - is standard output"))
+                "standard output); takes the method cvode",
+                options.ending(".csv", stream="; - is standard output"))
     options.add(group, "fields", "FILE", "with --method bem: pressure, traction and stick map at "
                 "nine times, as HDF5 (.h5, .hdf5)", options.ending(".h5", ".hdf5"))
     options.add_figure(group, "a figure of it")
@@ -49,6 +48,8 @@ def add(subparsers):
 
 def run(arguments):
     """Solve one impact and write what happened in it."""
+    import numpy as np
+
     import restitute
     from restitute.command import files, provenance
 
@@ -70,10 +71,11 @@ def run(arguments):
 
     outputs = with_record(arguments.output, _csv(done, _HISTORY, si), _HISTORY)
     if "events" in paths:
-        as_file = _csv if paths["events"].lower().endswith(("csv", "-")) else _events_as_hdf5
-        outputs += with_record(paths["events"], as_file(done.events, _EVENTS, si), _EVENTS)
+        outputs += with_record(paths["events"], _csv(done.events, _EVENTS, si), _EVENTS)
     if "fields" in paths:
-        outputs.append((paths["fields"], _hdf5(_FIELDS, done.fields._asdict())))
+        units = {name: np.bytes_(unit) for name, unit in _FIELDS.items()}
+        outputs.append((paths["fields"], files.hdf5(done.fields._asdict(), units,
+                                                    restitute_version=restitute.version())))
     if "figure" in paths:
         outputs.append((paths["figure"], files.image(_figure(done), paths["figure"])))
     files.write(*outputs)
@@ -86,11 +88,6 @@ def _check(output, paths, method):
     if "events" in paths and not _library.available("cvode"):
         raise Refusal("--events needs the component cvode, which is not in this build (SUNDIALS; "
                       "Debian: libsundials-dev)")
-    if "events" in paths and not method.startswith("cvode"):
-        raise Refusal(f"--events: the method {method} logs none; must be cvode, cvode-bdf or "
-                      "cvode-adams")
-    if "fields" in paths and method != "bem":
-        raise Refusal(f"--fields = {paths['fields']}: needs --method bem")
     for name, path in {"output": output, **paths}.items():
         if name == "figure" or path and path.lower().endswith(("h5", "hdf5")):
             options.need("matplotlib" if name == "figure" else "h5py", f"--{name} = {path}")
@@ -108,25 +105,6 @@ def _csv(columns, names, si):
     rows = (",".join(cell if isinstance(cell, str) else number_text(cell) for cell in row)
             for row in zip(*texts))
     return "\n".join([",".join(_name(name, si) for name in names), *rows, ""])
-
-
-def _events_as_hdf5(events, names, si):
-    values = {_name(name, si): events.word.tolist() if name == "event" else getattr(events, name)
-              for name in names}
-    return _hdf5({_name(name, si): _COLUMNS[name][0 if si else 2] for name in names}, values,
-                 "events")
-
-
-def _hdf5(units, values, group="/"):
-    """An HDF5 file of arrays with their units, of fixed length."""
-    import numpy as np
-
-    import restitute
-    from restitute.command import files
-
-    return files.hdf5({name: values[name] for name in units},
-                      {name: np.bytes_(unit) for name, unit in units.items()}, group,
-                      restitute_version=restitute.version())
 
 
 def _figure(done):

@@ -230,7 +230,8 @@ def place_of_options(arguments):
 def in_words_of(place, text):
     """A message of the package with the user's names of the fields in its first part."""
     fields, colon, rest = text.partition(":")
-    names = rf"(?<!\ba )(?<!/)\b({'|'.join(FIELDS)})\b(?!\.\w)|^(material|partner)\b(?!\.)"
+    names = (rf"(?<!\ba )(?<!/)\b({'|'.join(FIELDS)})\b(?!\.\w)"
+             r"|^(material|partner|events|fields)\b(?!\.)")
     rest = rest.replace("partner='same'", f"{place('partner')} same")
     return re.sub(names, lambda word: place(word[0]), fields) + colon + rest
 
@@ -267,9 +268,6 @@ def keywords(values, place):
     if shift and isinstance(partner, str) and partner not in ("rigid", "same"):
         raise Refusal(f"{place('partner')} = {partner[:64]}: the material must be a file without "
                       f"{place(shift)}, with its times shifted")
-    if not given:
-        raise Refusal("no impact is described: give psi, delta1, gamma or a material, radius, "
-                      "speed; see restitute pair --help")
     if given.keys() >= {"delta1", "gamma", "delta2"}:
         raise Refusal("delta1, gamma and delta2 are given: two of them determine the third")
     if set(given) <= set(DIMENSIONLESS):

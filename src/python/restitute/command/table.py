@@ -3,7 +3,7 @@
 import re
 
 from restitute.command import options, problem
-from restitute.command.options import Refusal, bounded, emit, number_text, say, shown
+from restitute.command.options import Refusal, bounded, emit, number_text, shown
 from restitute.errors import Error
 
 DONE, FAILED = 0, 1
@@ -129,14 +129,14 @@ def _build(arguments):
 
 def _check_output(arguments):
     from restitute.command import files
-    from restitute.table import not_text
+    from restitute.table import not_csv
 
     output, speed = arguments.output, arguments.speed
     if output is None:
         raise Refusal("--output is missing: the table's file")
     if files.is_stream(output):
         raise Refusal(f"--output = {output}: a table needs a file")
-    not_text("--output", output)
+    not_csv("--output", output)
     if arguments.figure:
         options.need("matplotlib", "--figure")
         if speed and speed[0] >= speed[1]:
@@ -244,12 +244,9 @@ def _query_one(arguments, table):
     if normal is None:
         raise Refusal("--normal-speed is missing")
     _check_query(arguments)
-    ez, ex = map(number_text, table.pair(normal, sliding, check=False))
+    ez, ex = map(number_text, table.pair(normal, sliding))
     files.write((arguments.output, f"ez,ex\n{ez},{ex}\n" if arguments.format == "csv" else
                  f"ez = {ez}\nex = {ex}\n"))
-    if table.beyond(normal):
-        say("warning: normal_speed_m_s is outside the table's range: its end is taken")
-    _warn(table.flags(normal, sliding))
     return DONE
 
 
@@ -265,14 +262,10 @@ def _query_many(arguments, table):
     good = status == ""
     normal, sliding = (speed[good] for speed in speeds)
     results = np.full((2, len(good)), "", object)
-    for texts, values in zip(results, table.pair(normal, sliding, check=False)):
+    for texts, values in zip(results, table.pair(normal, sliding)):
         texts[good] = [number_text(value) for value in values.tolist()]
     files.write((arguments.output, "".join(map(cases.csv_row, (
         [*rows.names, "ez", "ex", "status"], *zip(*rows.cells, *results, status))))))
-    flags, outside = table.flags(normal, sliding), np.count_nonzero(table.beyond(normal))
-    _warn(flags)
-    if outside:
-        say(f"warning: rows outside the table's ranges, whose ends are taken: {outside}")
     return DONE if good.all() else FAILED
 
 
@@ -293,17 +286,3 @@ def _column(rows, name, status):
         why = f"{reasons[cells[i]]}: must be in" if cells[i] in reasons else "is out of its range,"
         status[i] = f'{column} = "{cells[i][:64]}" {why} [{low:g}, {high:g}]'
     return values
-
-
-def _warn(flags):
-    """What the model neglects, for some or all pairs."""
-    import numpy as np
-
-    from restitute import _library
-    from restitute.impact import LIMITS
-
-    for bit, *_ in LIMITS:
-        count = int(np.count_nonzero(np.asarray(flags) & bit))
-        if count:
-            which = f"{count} of {np.size(flags)} rows: " if np.ndim(flags) else ""
-            say(f"warning: {which}{_library.text(_library.core.restitute_flag_text(bit))}")
