@@ -87,7 +87,7 @@ def test_other_sizes_and_frictions_are_served(rubber, table):
     scene = dict(radius=0.0007, density=1200, friction=0.6)
     contact = table.contact(**scene)
     assert contact.speed_factor == pytest.approx(0.7**-5)
-    with pytest.warns(restitute.ModelLimitWarning, match="^1 of 1 impacts: sliding distance above"):
+    with pytest.warns(restitute.ModelLimitWarning, match="^sliding distance above"):
         pair = table.pair(0.1, 0.5, contact)
     with pytest.warns(restitute.ModelLimitWarning, match="^sliding distance above"):
         solved = restitute.pair(rubber, **scene, normal_speed=0.1, tangential_speed=0.5,
@@ -99,7 +99,7 @@ def test_other_sizes_and_frictions_are_served(rubber, table):
     own = table.contact(radius=0.0007, density=1200)
     assert table.pair(0.02, 0.01, own).ex == table.pair(0.02, 0.01, given).ex
     # 0.01 to 1 m/s of the table's own ball, times 0.7^5
-    with pytest.warns(restitute.ModelLimitWarning, match="1 of 1 normal speeds are outside the "
+    with pytest.warns(restitute.ModelLimitWarning, match="^the normal speed is outside the "
                                                          "table's range, 0.0016807 to 0.16807 m/s"):
         table.pair(0.5, 0, contact)
     with pytest.raises(restitute.DomainError, match="^material: must be"):

@@ -91,7 +91,9 @@ class _Batch:
         self.axes = self._figure_axes() if arguments.figure else None
         materials = {name: texts for name in ("material", "partner")
                      if (texts := self.cases.materials(name)) is not None}
-        self._check_places(materials)
+        provenance.check_places(arguments, {**self.given, **materials}, (
+            "--output", self.output, ".meta.json", ".partial", ".partial.json"),
+            ("--figure", arguments.figure))
         self.cases.read()
         # What columns name belongs to the inputs that a resumed run must find again.
         self.settings = provenance.settings(arguments, {"input": source, **{
@@ -100,15 +102,6 @@ class _Batch:
         self.rows = Rows(self.cases, self.given, self.solution["method"])
         if other:
             say(f"remark: {self.cases.source}: passed through as unknown: {', '.join(other)}")
-
-    def _check_places(self, materials):
-        places = files.Places()
-        places.read("--input", self.arguments.input)
-        provenance.read_materials(places, {**self.given, **materials})
-        places.write("--output", self.output, ".meta.json", ".partial", ".partial.json")
-        if self.arguments.figure:
-            places.write("--figure", self.arguments.figure)
-        places.check()
 
     def open(self):
         """Where rows go that need not wait for the others; takes the rows that are there."""

@@ -155,18 +155,12 @@ def _check_kind(given):
 
 def _check_outputs(arguments, partners=()):
     """No output is an input, and all can be written, before the work is done."""
-    from restitute.command import files, provenance
+    from restitute.command import provenance
 
-    places = files.Places()
-    places.read("--input", arguments.input)
-    places.read("--dma", arguments.dma)
-    provenance.read_materials(places, {"partner": partners})
-    if arguments.output is not None:
-        places.write("--output", arguments.output, ".meta.json")
+    provenance.check_places(arguments, {"partner": partners}, (
+        "--output", arguments.output, ".meta.json"), ("--figure", arguments.figure))
     if arguments.figure is not None:
-        places.write("--figure", arguments.figure)
         options.need("matplotlib", "--figure")
-    places.check()
 
 
 # ------------------------------------------------------------------------------------------- fits
@@ -260,8 +254,7 @@ def _write(arguments, rows, fit):
         settings = {"version": version(), "input": rows.source,
                     "fingerprint": provenance.fingerprint(rows.table.content)}
         record = provenance.record(arguments, settings, {}, fit=report)
-        outputs = [(arguments.output, provenance.text(fit.document())),
-                   (files.beside(arguments.output, ".meta.json"), provenance.text(record))]
+        outputs = provenance.with_record(arguments.output, provenance.text(fit.document()), record)
     if arguments.figure:
         outputs.append((arguments.figure, files.image(_figure(arguments, fit), arguments.figure)))
     said = f"{shown(rows.source)}: {fit.model}\n\n{fit}\n"

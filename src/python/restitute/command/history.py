@@ -63,15 +63,14 @@ def run(arguments):
     si = done.result.impacts.kind == "scene"
     settings = provenance.settings(arguments, {"input": None}, method=method)
 
-    def with_record(path, content, columns):
-        units = {_name(name, si): _COLUMNS[name][0 if si else 2] for name in columns}
+    def with_record(path, columns, names):
+        units = {_name(name, si): _COLUMNS[name][0 if si else 2] for name in names}
         record = provenance.record(arguments, settings, units, status=single.remark(done.result))
-        beside = files.beside(path, ".meta.json") if not files.is_stream(path) else None
-        return [(path, content), *([(beside, provenance.text(record))] if beside else [])]
+        return provenance.with_record(path, _csv(columns, names, si), record)
 
-    outputs = with_record(arguments.output, _csv(done, _HISTORY, si), _HISTORY)
+    outputs = with_record(arguments.output, done, _HISTORY)
     if "events" in paths:
-        outputs += with_record(paths["events"], _csv(done.events, _EVENTS, si), _EVENTS)
+        outputs += with_record(paths["events"], done.events, _EVENTS)
     if "fields" in paths:
         units = {name: np.bytes_(unit) for name, unit in _FIELDS.items()}
         outputs.append((paths["fields"], files.hdf5(done.fields._asdict(), units,

@@ -54,10 +54,7 @@ def run(arguments):
         return 0
     word = problem.read_material(name or word, "material")
     if arguments.figure:
-        places = files.Places()
-        provenance.read_materials(places, {"material": word})
-        places.write("--figure", arguments.figure)
-        places.check()
+        provenance.check_places(arguments, {"material": word}, ("--figure", arguments.figure))
         options.need("matplotlib", "--figure")
     material = restitute.material(word, temperature=arguments.temperature)
     if arguments.temperature is not None:

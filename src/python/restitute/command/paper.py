@@ -64,7 +64,7 @@ def run(arguments):
 
 def _check(arguments, names, known, folder):
     """What is wrong is said before anything is drawn."""
-    from restitute.command import files, provenance
+    from restitute.command import provenance
 
     if arguments.figure is None:
         raise Refusal(f"the name of a figure is missing: must be {listed([*known, 'all'])}")
@@ -74,12 +74,10 @@ def _check(arguments, names, known, folder):
     if arguments.tolerance is not None and arguments.tolerance < 1e-6:
         raise Refusal(f"--tolerance = {arguments.tolerance:g}: must be at least 1e-6 with a "
                       "figure, whose lines are solved with a hundredth")
-    places = files.Places()
     if arguments.material is not None:
         if "temperature" not in names:
             raise Refusal("--material: only with the figure temperature, or all")
         problem.material_of(arguments.material)
-        provenance.read_materials(places, {"material": arguments.material})
     elif names == ["temperature"]:
         raise Refusal("--material is missing: the figure temperature needs that of polyisobutylene")
     try:
@@ -88,10 +86,9 @@ def _check(arguments, names, known, folder):
     except OSError:
         raise Refusal(f"--output = {folder[:200]}: must be a folder, or a new one in a folder that "
                       "there is") from None
-    for name in names:
-        for ending in (*_ROWS, *_DRAWN):
-            places.write("--output", os.path.join(folder, name + ending))
-    places.check()
+    provenance.check_places(arguments, {"material": arguments.material or ()}, *(
+        ("--output", os.path.join(folder, name + ending))
+        for name in names for ending in (*_ROWS, *_DRAWN)))
 
 
 class _Made:

@@ -3,7 +3,7 @@
 
     settings = provenance.settings(arguments, {"input": None})
     record = provenance.record(arguments, settings, {"ez": "1"}, rows=10)
-    provenance.write(path, content, record)
+    files.write(*provenance.with_record(path, content, record))
 """
 import hashlib
 import json
@@ -43,9 +43,24 @@ def series_of(path):
         return None
 
 
-def read_materials(places, values):
-    """Tell `files.Places` which material files are read, by an option or by all cells of a
-    column."""
+def check_places(arguments, materials, *outputs, table=None):
+    """Refuses an output, (option, path, suffixes of what is beside it), that cannot be written or is
+    an input of this run or another output; a figure that is not asked for is none.
+
+    `materials` are the values of the options material and partner, or all cells of such columns.
+    """
+    places = files.Places()
+    for name, path in (("the table", table), ("--input", getattr(arguments, "input", None)),
+                       ("--dma", getattr(arguments, "dma", None))):
+        places.read(name, path)
+    _read_materials(places, materials)
+    for name, path, *suffixes in outputs:
+        if path is not None or name == "--output":
+            places.write(name, path, *suffixes)
+    places.check()
+
+
+def _read_materials(places, values):
     for name in ("material", "partner"):
         given = values.get(name, ())
         for text in [given] if isinstance(given, str) else given:
@@ -98,11 +113,7 @@ def record(arguments, settings, units, **members):
             "command": arguments.command_line, "settings": settings, "units": units, **members}
 
 
-def write(path, content, record, *more):
-    """Write a result, and its record beside it unless that is a stream.
-
-    `more` are outputs (path, content) that belong to it. All are written, or none.
-    """
-    if not files.is_stream(path):
-        more = ((files.beside(path, ".meta.json"), text(record)), *more)
-    files.write(*more, (path, content))
+def with_record(path, content, record):
+    """A result, and its record beside it unless that is a stream, for `files.write`."""
+    beside = [] if files.is_stream(path) else [(files.beside(path, ".meta.json"), text(record))]
+    return [*beside, (path, content)]

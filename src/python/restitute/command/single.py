@@ -76,10 +76,8 @@ def run(arguments):
     units.update(_UNITS if result.impacts.kind == "scene" else _SCALES, work="nominal s")
     record = provenance.record(arguments, provenance.settings(arguments, {"input": None}), units)
     content = write(arguments, result.impacts, result, record)
-    if arguments.format == "json":
-        files.write((arguments.output, content))
-    else:
-        provenance.write(arguments.output, content, record)
+    files.write(*([(arguments.output, content)] if arguments.format == "json" else
+                  provenance.with_record(arguments.output, content, record)))
     return 0
 
 
@@ -88,16 +86,13 @@ def solve(arguments, outputs, function, **more):
     None of the outputs, by the names of their options, may be an input or another one."""
     import warnings
 
-    from restitute.command import files, provenance
+    from restitute.command import provenance
 
     values, place = problem.values_of(arguments), problem.place_of_options(arguments)
     keywords = problem.keywords(values, place)
     problem.impacts(keywords, place)
-    places = files.Places()
-    provenance.read_materials(places, values)
-    for option, path in outputs.items():
-        places.write(f"--{option}", path, ".meta.json")
-    places.check()
+    provenance.check_places(arguments, values, *(
+        (f"--{option}", path, ".meta.json") for option, path in outputs.items()))
     # Nothing is being written, and an impact may take long: signals end the process at once.
     with warnings.catch_warnings(), options.signals_are(signal.SIG_DFL):
         warnings.simplefilter("ignore")  # the message says the same of one impact

@@ -97,6 +97,8 @@ def run(arguments):
 
 def _build(arguments):
     import restitute
+    from restitute.command import provenance
+    from restitute.table import not_csv
 
     _check_output(arguments)
     values, place = problem.values_of(arguments), problem.place_of_options(arguments)
@@ -107,7 +109,9 @@ def _build(arguments):
     keywords = problem.keywords({**values, "speed": 1.0}, place)  # for the scene in words alone
     scene = re.sub(r": .* degrees, ", ": ", problem.impacts(keywords, place).describe())
     del keywords["speed"]
-    _check_places(arguments, values)
+    provenance.check_places(arguments, values, ("--output", arguments.output),
+                            ("--figure", arguments.figure))
+    not_csv("--output", arguments.output)
     settings = {name: getattr(arguments, name) for name in
                 ("tolerance", "max_impacts", "time_limit") if name in arguments.given}
     if arguments.speed:
@@ -129,29 +133,16 @@ def _build(arguments):
 
 def _check_output(arguments):
     from restitute.command import files
-    from restitute.table import not_csv
 
     output, speed = arguments.output, arguments.speed
     if output is None:
         raise Refusal("--output is missing: the table's file")
     if files.is_stream(output):
         raise Refusal(f"--output = {output}: a table needs a file")
-    not_csv("--output", output)
     if arguments.figure:
         options.need("matplotlib", "--figure")
         if speed and speed[0] >= speed[1]:
             raise Refusal("--figure: a table of one speed has no curves")
-
-
-def _check_places(arguments, values):
-    from restitute.command import files, provenance
-
-    places = files.Places()
-    provenance.read_materials(places, values)
-    places.write("--output", arguments.output)
-    if arguments.figure is not None:
-        places.write("--figure", arguments.figure)
-    places.check()
 
 
 def _draw(table, path):
@@ -227,23 +218,13 @@ def _query(arguments):
     return (_query_one if arguments.input is None else _query_many)(arguments, table)
 
 
-def _check_query(arguments):
-    from restitute.command import files
-
-    places = files.Places()
-    places.read("the table", arguments.file)
-    places.read("--input", arguments.input)
-    places.write("--output", arguments.output)
-    places.check()
-
-
 def _query_one(arguments, table):
-    from restitute.command import files
+    from restitute.command import files, provenance
 
     normal, sliding = arguments.normal_speed, arguments.tangential_speed or 0.0
     if normal is None:
         raise Refusal("--normal-speed is missing")
-    _check_query(arguments)
+    provenance.check_places(arguments, {}, ("--output", arguments.output), table=arguments.file)
     ez, ex = map(number_text, table.pair(normal, sliding))
     files.write((arguments.output, f"ez,ex\n{ez},{ex}\n" if arguments.format == "csv" else
                  f"ez = {ez}\nex = {ex}\n"))
@@ -253,12 +234,12 @@ def _query_one(arguments, table):
 def _query_many(arguments, table):
     import numpy as np
 
-    from restitute.command import cases, files
+    from restitute.command import cases, files, provenance
 
     rows = cases.Table(arguments.input, rows_needed=False)
     status = np.full(len(rows.lines), "", object)
     speeds = [_column(rows, name, status) for name in _SPEEDS]
-    _check_query(arguments)
+    provenance.check_places(arguments, {}, ("--output", arguments.output), table=arguments.file)
     good = status == ""
     normal, sliding = (speed[good] for speed in speeds)
     results = np.full((2, len(good)), "", object)
