@@ -54,12 +54,30 @@ refused 'standard output: at most one' history $numbers --events - --output -
 absent x.csv x.svg
 
 # What a file holds is said by its name, in capitals or not.
-for name in e.txt e.h5 e .csvx; do
-    refused 'must end in .csv; - is standard output' history $numbers --events $name --output h.csv
+for name in e.txt e.h5x e .csvx; do
+    refused 'must end in .csv, .h5 or .hdf5' history $numbers --events $name --output h.csv
     absent $name
 done
 expect 0 history $numbers --events capitals.CSV --output h.csv
 has capitals.CSV gross-slip-end
+
+if ! "$RESTITUTE" history $numbers --events e.h5 --output h.csv 2>err; then
+    has err 'needs h5py'
+    absent e.h5
+elif have_h5py; then
+    events() { # FILE: what happens in it, and the unit of the time
+        "$python" -c 'import h5py, sys; e = h5py.File(sys.argv[1])["events"]
+print(*e["event"], e["time_T"].attrs["unit"])' "$1"
+    }
+    events e.h5 >dump
+    has dump gross-slip-end contact-end " b'T'"
+    has e.h5.meta.json '"cvode"'
+    for name in capitals.HDF5 capitals.H5; do
+        expect 0 history $numbers --events $name --output h.csv
+        events $name >dump
+        has dump gross-slip-end
+    done
+fi
 
 # What max_work allows is given with a remark, and nothing if that is nothing.
 expect 0 pair --psi 0.5 --chi 8 --tolerance 1e-6 --method cvode --max-work 0.05 --format csv

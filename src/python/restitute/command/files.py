@@ -259,7 +259,7 @@ def image(axes, path):
     return content.getvalue()
 
 
-def hdf5(datasets, units, **attributes):
+def hdf5(datasets, units, group="/", **attributes):
     """The bytes of an HDF5 file: arrays with their units."""
     import h5py
 
@@ -267,7 +267,7 @@ def hdf5(datasets, units, **attributes):
     with h5py.File(content, "w") as file:
         file.attrs.update(attributes)
         for name, values in datasets.items():
-            data = file.create_dataset(name, data=values)
+            data = file.require_group(group).create_dataset(name, data=values)
             if name in units:
                 data.attrs["unit"] = units[name]
     return content.getvalue()

@@ -39,8 +39,8 @@ def add(subparsers):
                 "1000000; default 500", options.bounded(2, 1e6, whole=True))
     options.add(group, "output", "FILE", "write the CSV here and not to standard output")
     options.add(group, "events", "FILE", "write the log of events here, as CSV (.csv, or - for "
-                "standard output); takes the method cvode",
-                options.ending(".csv", stream="; - is standard output"))
+                "standard output) or HDF5 (.h5, .hdf5); takes the method cvode",
+                options.ending(".csv", ".h5", ".hdf5", stream="; - is standard output"))
     options.add(group, "fields", "FILE", "with --method bem: pressure, traction and stick map at "
                 "nine times, as HDF5 (.h5, .hdf5)", options.ending(".h5", ".hdf5"))
     options.add_figure(group, "a figure of it")
@@ -48,8 +48,6 @@ def add(subparsers):
 
 def run(arguments):
     """Solve one impact and write what happened in it."""
-    import numpy as np
-
     import restitute
     from restitute.command import files, provenance
 
@@ -63,18 +61,17 @@ def run(arguments):
     si = done.result.impacts.kind == "scene"
     settings = provenance.settings(arguments, {"input": None}, method=method)
 
-    def with_record(path, columns, names):
+    def with_record(path, columns, names, as_file=_csv):
         units = {_name(name, si): _COLUMNS[name][0 if si else 2] for name in names}
         record = provenance.record(arguments, settings, units, status=single.remark(done.result))
-        return provenance.with_record(path, _csv(columns, names, si), record)
+        return provenance.with_record(path, as_file(columns, names, si), record)
 
     outputs = with_record(arguments.output, done, _HISTORY)
     if "events" in paths:
-        outputs += with_record(paths["events"], done.events, _EVENTS)
+        as_file = _csv if paths["events"].lower().endswith(("csv", "-")) else _events_as_hdf5
+        outputs += with_record(paths["events"], done.events, _EVENTS, as_file)
     if "fields" in paths:
-        units = {name: np.bytes_(unit) for name, unit in _FIELDS.items()}
-        outputs.append((paths["fields"], files.hdf5(done.fields._asdict(), units,
-                                                    restitute_version=restitute.version())))
+        outputs.append((paths["fields"], _hdf5(_FIELDS, done.fields._asdict())))
     if "figure" in paths:
         outputs.append((paths["figure"], files.image(_figure(done), paths["figure"])))
     files.write(*outputs)
@@ -104,6 +101,25 @@ def _csv(columns, names, si):
     rows = (",".join(cell if isinstance(cell, str) else number_text(cell) for cell in row)
             for row in zip(*texts))
     return "\n".join([",".join(_name(name, si) for name in names), *rows, ""])
+
+
+def _events_as_hdf5(events, names, si):
+    values = {_name(name, si): events.word.tolist() if name == "event" else getattr(events, name)
+              for name in names}
+    return _hdf5({_name(name, si): _COLUMNS[name][0 if si else 2] for name in names}, values,
+                 "events")
+
+
+def _hdf5(units, values, group="/"):
+    """An HDF5 file of arrays with their units, of fixed length."""
+    import numpy as np
+
+    import restitute
+    from restitute.command import files
+
+    return files.hdf5({name: values[name] for name in units},
+                      {name: np.bytes_(unit) for name, unit in units.items()}, group,
+                      restitute_version=restitute.version())
 
 
 def _figure(done):

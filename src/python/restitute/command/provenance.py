@@ -44,7 +44,7 @@ def series_of(path):
 
 
 def check_places(arguments, materials, *outputs, table=None):
-    """Refuses an output, (option, path, suffixes of what is beside it), that cannot be written or is
+    """Refuse an output, (option, path, suffixes of what is beside it), that cannot be written or is
     an input of this run or another output; a figure that is not asked for is none.
 
     `materials` are the values of the options material and partner, or all cells of such columns.
