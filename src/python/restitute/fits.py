@@ -23,7 +23,7 @@ class Fit:
     Attributes
     ----------
     material : Material
-        The fitted solid. Its `window` is that of the contact times, or of 1/(2 pi f), of the data.
+        The fitted solid. Its `window` is that of the contact times of the data, of DMA 1/(2 f).
     names : list of str
         Its n constants, e.g. "modulus1_pa", then "friction" and "shift_..." where fitted.
     value, low, high : ndarray, shape (n,)
@@ -163,8 +163,8 @@ class DmaFit(Fit):
         constants += [(f"shift_{t:g}", shift) for t, shift in zip(self.temperature, self.shift)]
         constants += [(f"wlf_c{k + 1}", c) for k, c in enumerate(self.wlf) if not np.isnan(c)]
         self._tension, self._measured = tension, measured
-        omega = 2 * np.pi * self._reduced()
-        window = (1 / omega.max(), 1 / omega.min()) if omega.max() > omega.min() else None
+        f = self._reduced()  # a contact of time t is half a sine
+        window = (0.5 / f.max(), 0.5 / f.min()) if f.max() > f.min() else None
         super().__init__(struct, "prony", [(*one, np.nan, np.nan) for one in constants], name=name,
                          window=window)
         self.summary = (f"Prony series of {terms} terms, relative residuals: rms {self.rms:.3g}, "
