@@ -140,7 +140,7 @@ class Pairs(Columns):
         >>> from restitute import Material, errors
         >>> with warnings.catch_warnings():
         ...     warnings.simplefilter("ignore", errors.ModelLimitWarning)
-        ...     balls = pair(Material.elastic(1e6), radius=0.01, density=1000, friction=0.3,
+        ...     balls = pair(Material.elastic(1e6), radius=0.01, density=1000, friction=0,
         ...                  speed=[0.1, 2], speed_limit=1, radius_limit=0.2)
         >>> balls.limits()
         [('LARGE_CONTACT', 1,

@@ -194,7 +194,7 @@ class _Batch:
 
     def report(self):
         """What is to be said of all rows, the figure, and the exit status."""
-        from restitute.impact import LIMITS, soft_contact
+        from restitute.impact import LIMITS
 
         of, flags = f"of {self.cases.rows} rows", self.rows.flags()
         columns = dict(zip(self.rows.numbers, self.rows.values))
@@ -208,7 +208,7 @@ class _Batch:
             if member in columns:
                 values = columns[member][(flags & bit) != 0]
                 text += f": {span(values, ' s', digits=3)}" if not option else \
-                    f", up to {values.max():.3g} ({soft_contact(values.max())})"
+                    f", up to {values.max():.3g}"
             verb = "exceed the limit" if option else "are flagged"
             say(f"remark: {limits[name]} {of} {verb} {name}: {text}")
         if self.arguments.figure:
