@@ -139,7 +139,8 @@ class Run:
     def killed(self, at):
         self.clear(old=at % 2)
         status, said = self.end(self.start(FAULT="kill", FAULT_AT=str(at)))
-        need(status == -signal.SIGKILL, f"exit status {status}: {said}")
+        # The pieces of a batch depend on the time that rows take: there may be fewer calls.
+        need(status in (-signal.SIGKILL, self.status), f"exit status {status}: {said}")
         self.check()
         self.check_again()
 
@@ -155,7 +156,7 @@ class Run:
     def stopped(self, at):
         self.clear(old=at % 2)
         first = self.start(FAULT="stop", FAULT_AT=str(at))
-        os.waitpid(first.pid, os.WUNTRACED)
+        os.waitid(os.P_PID, first.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT)
         second = self.end(self.start())
         self.check()
         first.send_signal(signal.SIGCONT)
