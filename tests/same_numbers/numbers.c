@@ -72,15 +72,15 @@ static void solve(const char *name, const restitute_method *method, int n, doubl
         print(name, 2 * i, single[i].ez), print(name, 2 * i + 1, single[i].ex);
     }
     restitute_solver_destroy(solver);
-    for (int threads = 1; threads <= 3; threads++)
-        for (int size = 1; size <= n; size = size < 8 ? size + 3 : n + (size == n)) {
-            options.threads = threads;
-            for (int i = 0; i < n; i++)
-                restitute_result_init(&many[i]);
-            for (int i = 0; i < n; i += size)
-                restitute_solve_many((size_t)(n - i < size ? n - i : size), list + i, &options, many + i, NULL, NULL);
-            expect_same(single, many, sizeof single, name);
-        }
+    for (int threads = 1; threads <= 3; threads++) {
+        const int size = threads == 1 ? n : threads == 2 ? 7 : 1;
+        options.threads = threads;
+        for (int i = 0; i < n; i++)
+            restitute_result_init(&many[i]);
+        for (int i = 0; i < n; i += size)
+            restitute_solve_many((size_t)(n - i < size ? n - i : size), list + i, &options, many + i, NULL, NULL);
+        expect_same(single, many, sizeof single, name);
+    }
 }
 
 #ifdef WITH_CONTACT

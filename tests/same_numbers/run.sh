@@ -12,6 +12,10 @@ shift
 [ $# -gt 0 ] || set -- gcc-O2 gcc-O0 gcc-O3 gcc-O3-march=x86-64-v3 clang-O2 aarch64
 for variant; do
     place=$directory/$variant
+    if [ -s "$place.txt" ]; then # made before
+        python3 -B "$here/compare.py" "$directory/$1.txt" "$place.txt"
+        continue
+    fi
     flags=$(printf '%s' "${variant#*-}" | sed 's/-march/ -march/')
     if [ "$variant" = aarch64 ]; then
         ARM_PREFIX=$place/prefix
@@ -30,6 +34,7 @@ for variant; do
     cmake -S "$here" -B "$place/numbers" -G Ninja "$set_up" -DCMAKE_BUILD_TYPE=Release \
         -DCMAKE_PREFIX_PATH="$place/prefix" >>"$place.log" 2>&1
     cmake --build "$place/numbers" >>"$place.log" 2>&1
-    $run "$place/numbers/numbers" "$source/src/materials/polyisobutylene.json" >"$place.txt"
+    $run "$place/numbers/numbers" "$source/src/materials/polyisobutylene.json" >"$place.part"
+    mv "$place.part" "$place.txt"
     python3 -B "$here/compare.py" "$directory/$1.txt" "$place.txt"
 done
