@@ -255,6 +255,7 @@ def _write(arguments, rows, fit):
                     "fingerprint": provenance.fingerprint(rows.table.content)}
         record = provenance.record(arguments, settings, {}, fit=report)
         outputs = provenance.with_record(arguments.output, provenance.text(fit.document()), record)
+        outputs.reverse()  # what cannot be written is named by the file that was asked for
     if arguments.figure:
         outputs.append((arguments.figure, files.image(_figure(arguments, fit), arguments.figure)))
     said = f"{shown(rows.source)}: {fit.model}\n\n{fit}\n"
