@@ -6,7 +6,7 @@
 #   all      run, and the libraries of the components cvode, table_files, bem and fit
 #   lammps   all, and what building the adapter for LAMMPS needs
 #   test     all, and what the tests need
-#   ci       test, make, and a second compiler with its sanitizers
+#   ci       test, make, what counts lines, and a second compiler with its sanitizers
 #   package  all, and what cpack needs to make Debian packages
 #   docs     all, and what building the reference and the site, checking the man page and converting figures needs
 #   site-check  docs, and the browser of the target site-check (0.4 GB)
@@ -26,7 +26,7 @@ run) packages=$run_packages ;;
 all) packages=$all_packages ;;
 lammps) packages="$all_packages g++ python3-venv" ;;
 test) packages=$test_packages ;;
-ci) packages="$test_packages make clang libclang-rt-14-dev llvm" ;;
+ci) packages="$test_packages make clang gcovr libclang-rt-14-dev llvm" ;;
 package) packages="$all_packages $package_tools" ;;
 docs) packages=$docs_packages ;;
 site-check) packages="$docs_packages chromium chromium-driver fonts-dejavu-core python3-selenium" ;;

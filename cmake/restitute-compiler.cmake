@@ -69,6 +69,13 @@ if(RESTITUTE_SANITIZE)
   add_link_options(${sanitizers})
 endif()
 
+if(RESTITUTE_COVERAGE)
+  set(counters --coverage -fprofile-update=atomic)
+  list(APPEND RESTITUTE_C_FLAGS ${counters})
+  list(APPEND RESTITUTE_FORTRAN_FLAGS ${counters})
+  add_link_options(--coverage)
+endif()
+
 # What Debian asks of programs that read files of others. Fortran calls nothing that could be
 # checked.
 set(RESTITUTE_HARDENED OFF)
