@@ -143,8 +143,9 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, table_contact)
 
 /** Fill `contact` from a scene; its speeds and spins are not used.
  *
- *  A table serves every contact of its material with its chi. The friction may be any. The impact
- *  sees size through its duration alone, so a size is a factor on the speed; solid spheres of one
+ *  A table serves every contact of its material with its chi. The friction may be any, but 0 with a
+ *  table made for friction 0, which knows nothing of slip. The impact sees size through its
+ *  duration alone, so a size is a factor on the speed; solid spheres of one
  *  material have the same chi whatever their sizes, with walls and with each other. The same holds
  *  for the material at another temperature: all its relaxation times may be longer by one factor,
  *  and all its moduli larger by one factor.
