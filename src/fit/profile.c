@@ -1,6 +1,7 @@
 /* Intervals that are too wide for the linearised problem, by the profile likelihood. At their ends
  * the sum of squares, with the other constants fitted again, has increased by the amount that
- * belongs to the quantile.
+ * belongs to the quantile. Where that is not followed, as for friction, a linearised interval of
+ * more than a factor of 10 (WIDE) either way has no ends.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <string.h>
@@ -11,7 +12,7 @@
  * UNBOUNDED: beyond it, a factor of 1000, there is no bound. Both are chosen, not derived. NEAR:
  * relative accuracy of the increase at an end. TRIALS: enough to get from LINEAR to UNBOUNDED by
  * factors of two. */
-static const double LINEAR = 0.2, UNBOUNDED = 6.9, NEAR = 0.9;
+static const double LINEAR = 0.2, UNBOUNDED = 6.9, NEAR = 0.9, WIDE = 2.302585;
 enum { TRIALS = 8 };
 
 /* Sum of squares with fitted constant k a factor of exp(away) from its best value. */
@@ -60,8 +61,10 @@ int rst_fit_profile(struct rst_fit_search *s, double quantile, struct rst_fit_in
     for (size_t k = 0; k < p && status >= 0; k++) {
         const double linear = c->determined[k] ? quantile * sqrt(c->variance[k * p + k]) : INFINITY;
         c->below[k] = c->above[k] = linear;
-        if (s->data->options.loss || s->model.index[k] >= s->model.solid || !(linear > LINEAR && linear < INFINITY))
+        if (s->data->options.loss || s->model.index[k] >= s->model.solid || !(linear > LINEAR && linear < INFINITY)) {
+            if (linear > WIDE) c->below[k] = c->above[k] = INFINITY;
             continue;
+        }
         status = find_end(s, c, k, quantile, -1, &c->below[k]);
         if (status >= 0) status = find_end(s, c, k, quantile, 1, &c->above[k]);
     }

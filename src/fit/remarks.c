@@ -123,6 +123,7 @@ static void remark_bounds(const struct rst_fit_search *s, const struct rst_fit_i
     char name[RESTITUTE_FIT_NAME];
     for (size_t i = 0; i < s->model.free; i++) {
         if (!c->determined[i] || (c->below[i] < INFINITY && c->above[i] < INFINITY)) continue;
+        if (c->below[i] == c->above[i]) result->rank--; /* both are infinite */
         rst_fit_name(s->data, &s->model, s->model.index[i], name);
         remark(result, RESTITUTE_FIT_FLAG_UNDETERMINED, "the data give no %s of %s",
                c->above[i] < INFINITY   ? "lower bound"
@@ -175,7 +176,7 @@ static int remark_limits(struct rst_fit_search *s, restitute_fit_result *result)
         if (count)
             remark(result, RESTITUTE_FIT_FLAG_LIMITS,
                    "%zu of %zu impacts are beyond the contact model, %s up to %.2g: %s", count, s->data->n, ratios[b],
-                   worst, restitute_flag_text(bits[b]));
+                   worst, worst > 1 ? "are moduli in Pa, lengths in m, speeds in m/s?" : restitute_flag_text(bits[b]));
     }
     free(results);
     return status;
