@@ -72,6 +72,10 @@ cut -d, -f1,2 drop.csv >only.csv
 expect 1 fit --input only.csv $ball
 has out 'not determined'
 has err 'remark: ' 'measure a contact time'
+expect 1 fit --input only.csv $ball --output open.json
+has out 'modulus assumed'
+has open.json ': modulus assumed; '
+grep -Eq 'window_s|measured' open.json && fail "an assumed modulus is called measured: $(cat open.json)"
 expect 0 fit --input only.csv $ball --known modulus1=1e6
 has out 'known'
 expect 1 fit --input drop.csv $ball --known modulus1=1e6,modulus2=3e6,viscosity=400
@@ -145,6 +149,11 @@ refused 'line 3 (row 2): loss_Pa = -4' fit --dma bad.csv
 refused 'give --input' fit
 refused '--model: not with --dma' fit --dma curve.csv --model elastic
 refused '--radius: not with --dma' fit --dma curve.csv --radius 1
+refused 'column speed_m_s is one of --input: give --input drop.csv' fit --dma drop.csv
+refused 'column frequency_Hz is one of --dma: give --dma curve.csv' fit --input curve.csv $ball
+refused 'give --density or --mass of the sphere' fit --input drop.csv --radius 0.005
+refused 'give --radius of the sphere' fit --input drop.csv --mass 0.004
+refused '--known: "E" is no constant of this model; did you mean youngs_modulus?' fit --input drop.csv $ball --known E=1e6
 refused '--noise: need --dma' fit --input drop.csv --noise 0.1
 bad 'row 2): sigma_ez is missing' speed_m_s,ez,sigma_ez 1,0.5,0.01 2,0.4, 3,0.3,0.01
 bad 'line 3 (row 2): contact_time_s = -1: must be > 0' speed_m_s,ez,contact_time_s 1,0.5,1 2,0.4,-1 3,0.4,1

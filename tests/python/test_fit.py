@@ -12,7 +12,9 @@ import pytest
 import restitute
 from restitute.command import main
 
-pytestmark = pytest.mark.component("fit")
+# Impacts of soft balls are beyond the contact model, of which the fit warns.
+pytestmark = [pytest.mark.component("fit"),
+              pytest.mark.filterwarnings("ignore::restitute.errors.ModelLimitWarning")]
 BALL = dict(radius=0.005, mass=0.004)
 
 
@@ -346,3 +348,86 @@ def test_drop_heights_in_millimetres_are_warned_of():
     with pytest.warns(restitute.UnitWarning, match="drop_height = 1000 m: heights are in m"):
         restitute.fit_drop_test(drop_height=[100, 1000], rebound_ratio=[0.8, 0.7], **BALL,
                                 model="kelvin_voigt", known={"modulus1": 1e8})
+
+
+DROP = dict(drop_height=[0.1, 0.2, 0.5, 1], rebound_ratio=[0.8, 0.75, 0.7, 0.66])
+
+
+def test_a_modulus_that_is_assumed_is_no_measured_one(tmp_path):
+    given = dict(**DROP, radius=0.005, density=1100, model="kelvin_voigt")
+    fit = restitute.fit_drop_test(**given)
+    assert fit.assumed and fit.material.window == (0, np.inf)
+    assert "modulus assumed" in fit.material.source and "measured" not in fit.material.source
+    fit = restitute.fit_drop_test(**given, known={"modulus1": 1e8})
+    assert not fit.assumed and fit.material.window[1] < 1
+    assert "assumed" not in fit.material.source
+    for part in (f"restitute {restitute.version()} fit: rms ", f" {fit.rms:.3g},", "of 4 values"):
+        assert part in fit.material.source
+
+
+def test_the_density_of_moduli_is_that_of_the_material(rubber, tmp_path, monkeypatch, capfd):
+    omega = np.geomspace(10, 1e5, 25)
+    curve = omega / (2 * np.pi), rubber.storage_modulus(omega), rubber.loss_modulus(omega)
+    assert restitute.fit_dma(*curve, density=1100).material.density == 1100
+    for bad in (-1, 0, np.inf):
+        with pytest.raises(restitute.DomainError, match=f"density = {bad:g}: must be finite and >"):
+            restitute.fit_dma(*curve, density=bad)
+    with pytest.warns(restitute.UnitWarning, match="are moduli in Pa, not in MPa"):
+        restitute.fit_dma(curve[0], curve[1] * 1e-6, curve[2] * 1e-6)
+    monkeypatch.chdir(tmp_path)
+    np.savetxt("curve.csv", np.transpose(curve), delimiter=",", comments="",
+               header="frequency_hz,storage_pa,loss_pa")
+    assert main(["fit", "--dma", "curve.csv", "--density", "1100", "--output", "dma.json"]) == 0
+    assert "density 1100 kg/m^3, measured from" in capfd.readouterr().out
+    dma = restitute.material("dma.json")
+    assert restitute.pair(dma, radius=0.003, radius2=0.003, partner="same", friction=0.5,
+                          speed=0.001).ez < 1
+
+
+@pytest.mark.parametrize("kind, words, change", [
+    (ValueError, "known: 'E' is no constant.*; did you mean youngs_modulus", dict(E=1e8)),
+    (ValueError, "'young_modulus' .*; did you mean youngs_modulus", dict(young_modulus=1e8)),
+    (ValueError, "'stiffness' .*: must be one of .*youngs_modulus, shore_a", dict(stiffness=1)),
+    (ValueError, "^known: youngs_modulus = '5e8': must be one number", dict(youngs_modulus="5e8")),
+    (TypeError, r'^known = .*: must be a dict, as \{"youngs_modulus": 5.8e8\}',
+     "youngs_modulus=5.8e8")])
+def test_known_constants_of_another_form_are_named_with_the_right_one(kind, words, change):
+    with pytest.raises(kind, match=words):
+        restitute.fit_drop_test(**DROP, **BALL, known=change)
+
+
+def test_files_and_fits_in_the_wrong_place_are_answered_with_the_right_one():
+    with pytest.raises(TypeError, match="give columns as keywords.* reads files"):
+        restitute.fit_drop_test("drop.csv", radius=0.005)
+    fit = restitute.fit_drop_test(**DROP, **BALL, model="kelvin_voigt", known={"modulus1": 1e8})
+    with pytest.raises(restitute.DomainError, match="did you mean fit.material"):
+        restitute.pair(fit, **BALL, friction=0, speed=1)
+
+
+@pytest.mark.filterwarnings("default::restitute.errors.ModelLimitWarning")
+def test_impacts_beyond_the_model_are_warned_of_and_wrong_units_asked_for():
+    given = dict(**DROP, **BALL, model="kelvin_voigt")
+    with pytest.warns(restitute.ModelLimitWarning, match="4 of 4 impacts .* half-space model"):
+        restitute.fit_drop_test(**given, known={"modulus1": 1e6})
+    with pytest.warns(restitute.ModelLimitWarning, match="are moduli in Pa, lengths in m"):
+        restitute.fit_drop_test(**given, known={"modulus1": 1.0})
+
+
+def test_a_steel_ball_is_not_taken_for_rubber_without_a_word():
+    given = dict(**DROP, radius=0.005, model="kelvin_voigt", known={"modulus1": 1e6})
+    said = [any("steel ball" in remark for remark in restitute.fit_drop_test(
+        **{**given, **change}).remarks) for change in (
+            {"density": 7850}, {"density": 1100}, {"mass": 0.004},
+            {"density": 7850, "known": {"modulus1": 8e10}})]
+    assert said == [True, False, False, False]
+
+
+def test_a_friction_that_may_be_ten_times_larger_is_not_determined(rubber):
+    """The friction of impacts that nearly stick: ex says little of it, and the noise the rest."""
+    ex = np.array([0.5, 0.4, 0.45, 0.6, 0.5])
+    fit = restitute.fit_drop_test(ez=[0.5, 0.45, 0.4, 0.55, 0.38], ex=ex,
+                                  speed=[1, 2, 3, 0.5, 4], angle=[30, 45, 60, 45, 50], **BALL,
+                                  model="kelvin_voigt", known={"modulus1": 1e8}, confidence=0.999)
+    assert fit.names[2] == "friction" and (fit.low[2], fit.high[2]) == (0, np.inf)
+    assert not fit.is_good and "the data give no bounds of friction" in fit.remarks
+    assert "not determined" in str(fit) and fit.rank == 1

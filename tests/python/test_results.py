@@ -22,7 +22,7 @@ def pairs():
 def drop_fit():
     return restitute.fit_drop_test(
         drop_height=[0.1, 0.2, 0.5, 1], rebound_height=[0.07, 0.14, 0.34, 0.66], radius=0.02,
-        mass=0.04, model="kelvin_voigt", known={"modulus1": 1e8})
+        mass=0.04, model="kelvin_voigt", known={"modulus1": 3e9})
 
 
 def dma_fit():

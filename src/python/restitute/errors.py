@@ -60,7 +60,8 @@ class UnitWarning(UserWarning):
 
 
 _OTHER_WORDS = {"velocity": "speed", "v": "speed", "mu": "friction", "nu": "poisson_ratio",
-                "height": "drop_height", "diameter": "radius", "theta": "angle"}
+                "height": "drop_height", "diameter": "radius", "theta": "angle",
+                "E": "youngs_modulus"}
 
 
 def suggestion(word: Any, known: Iterable[str]) -> str:

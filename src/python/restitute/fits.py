@@ -13,6 +13,8 @@ from restitute.materials import Material, document, write_file
 
 __all__ = ["MEASURED", "DmaFit", "DropFit", "Fit"]
 
+_METAL, _STIFF = 3000.0, 1e9  # kg/m^3 and Pa: no soft solid is as dense
+
 #: What a drop test may measure.
 MEASURED = ("ez", "ex", "contact_time")
 
@@ -37,6 +39,7 @@ class Fit:
     """
 
     summary = ""
+    assumed = False  #: A drop test without any scale: the modulus is none of the data
     correlation = np.empty((0, 0))
 
     def __init__(self, struct: Any, model: str, constants: list, **about: Any):
@@ -45,6 +48,12 @@ class Fit:
         self.material = Material(struct.material, model=model, **about)
         names, *numbers = zip(*constants)
         self.names, (self.value, self.low, self.high) = list(names), np.array(numbers)
+
+    def origin(self, data: str = "") -> str:
+        """The source that the material file names, with a name of the data."""
+        return (f"restitute {_library.text(_library.core.restitute_version())} fit"
+                f"{' of ' if data else ''}{data}: {'modulus assumed; ' if self.assumed else ''}"
+                f"{self.summary}")
 
     @property
     def is_good(self) -> bool:
@@ -114,11 +123,12 @@ class DropFit(Fit):
     """
 
     def __init__(self, struct: Any, model: str, confidence: float, measured: dict, fitted: dict,
-                 **about: Any):
+                 window: tuple | None, **about: Any):
         n = struct.constants
+        self.assumed = "as of 1 MPa are assumed" in _library.text(struct.remarks)
         super().__init__(struct, model, [
             (_library.text(struct.name[k]), struct.value[k], struct.low[k], struct.high[k])
-            for k in range(n)], **about)
+            for k in range(n)], window=None if self.assumed else window, **about)
         self.correlation = np.array([list(struct.correlation[k])[:n] for k in range(n)])
         self.values, self.rank, self.impacts = struct.values, struct.rank, struct.impacts
         self.noise, self.condition = struct.noise, struct.condition
@@ -127,6 +137,11 @@ class DropFit(Fit):
             f"rms of the residuals of {self.values} values {self.rms:.3g}, noise {self.noise:.3g}; "
             f"{self.rank} constants or combinations of them determined, intervals of "
             f"{100 * self.confidence:g} %; {self.impacts} impacts solved")
+        self.material.source = self.origin()
+        series, density = self.material.series, self.material.density
+        if density > _METAL and series.equilibrium_modulus + series.modulus.sum() < _STIFF:
+            self.remarks.append(f"density = {density:g} kg/m^3 is taken to be that of the fitted "
+                                "solid: of a steel ball on rubber give the mass instead")
 
     @property
     def residuals(self) -> dict[str, np.ndarray]:
@@ -152,7 +167,7 @@ class DmaFit(Fit):
         Of the relative residuals.
     """
 
-    def __init__(self, struct: Any, name: str, tension: bool, measured: list):
+    def __init__(self, struct: Any, tension: bool, measured: list, **about: Any):
         terms, count = struct.terms, struct.temperatures
         self.temperature = np.array(list(struct.temperature)[:count])
         self.shift, self.worst = np.array(list(struct.shift)[:count]), struct.worst
@@ -165,10 +180,11 @@ class DmaFit(Fit):
         self._tension, self._measured = tension, measured
         f = self._reduced()  # a contact of time t is half a sine
         window = (0.5 / f.max(), 0.5 / f.min()) if f.max() > f.min() else None
-        super().__init__(struct, "prony", [(*one, np.nan, np.nan) for one in constants], name=name,
-                         window=window)
+        super().__init__(struct, "prony", [(*one, np.nan, np.nan) for one in constants],
+                         window=window, **about)
         self.summary = (f"Prony series of {terms} terms, relative residuals: rms {self.rms:.3g}, "
                         f"largest {self.worst:.3g}")
+        self.material.source = self.origin()
 
     def _reduced(self):
         """a_T times frequency."""

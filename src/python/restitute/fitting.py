@@ -27,7 +27,9 @@ MODELS = {"elastic": ("modulus",), "kelvin_voigt": ("modulus1", "viscosity"),
 LOSSES = ("squares", "huber", "cauchy")
 _MEMBERS = ("confidence", "reference_temperature", "starts", "seed", "threads")
 GRAVITY = 9.80665  # m/s^2
+_FIRST = {"youngs_modulus": "youngs", "shore_a": "shore_a"}  # and keywords of shear_modulus
 _HIGH = 100.0  # m: nobody drops a ball from higher up
+_SOFT = 1e3  # Pa: no ball of less is handled
 
 
 class _Fitter:
@@ -67,7 +69,7 @@ class _Fitter:
         return result, fitted
 
 
-def fit_drop_test(*, ez: Any = np.nan, ex: Any = np.nan, contact_time: Any = np.nan,
+def fit_drop_test(*columns: Any, ez: Any = np.nan, ex: Any = np.nan, contact_time: Any = np.nan,
                   speed: Any = None, drop_height: Any = None, rebound_height: Any = None,
                   rebound_ratio: Any = None, temperature: Any = np.nan, weight: Any = None,
                   sigma_ez: Any = None, sigma_ex: Any = None, sigma_contact_time: Any = None,
@@ -131,14 +133,22 @@ def fit_drop_test(*, ez: Any = np.nan, ex: Any = np.nan, contact_time: Any = np.
     KeyboardInterrupt
         By Ctrl-C, within 200 impacts.
 
+    Warns
+    -----
+    ModelLimitWarning
+        Impacts are beyond the contact model.
+
     Examples
     --------
     >>> import restitute
     >>> fit = fit_drop_test(drop_height=[0.1, 0.2, 0.5, 1], rebound_height=[0.07, 0.14, 0.34, 0.66],
-    ...                     radius=0.02, mass=0.04, model="kelvin_voigt", known={"modulus1": 1e8})
+    ...                     radius=0.02, mass=0.04, model="kelvin_voigt", known={"modulus1": 3e9})
     >>> fit.names, fit.is_good
     (['modulus1_pa', 'viscosity_pa_s'], True)
     """
+    if columns:
+        raise TypeError("fit_drop_test: give columns as keywords, e.g. drop_height=[0.1, 0.2]; the "
+                        "command restitute fit reads files")
     for key in more:
         if key not in (*_MEMBERS, *SCENE):
             names = [*(fit_drop_test.__kwdefaults__ or ()), *_MEMBERS, *SCENE]
@@ -167,9 +177,13 @@ def fit_drop_test(*, ez: Any = np.nan, ex: Any = np.nan, contact_time: Any = np.
     result, fitted = _Fitter(points, options, (records, kept, arrays)).run(progress)
     measured = {what: points[what] for what in MEASURED}
     measured["normal_speed"] = records["normal_speed"]
-    return DropFit(result, model, options.confidence, measured, fitted, name=name,
-                   density=density[0] if density.size == 1 else np.nan,
-                   window=_window(fitted["contact_time"], points["temperature"], options, result))
+    fit = DropFit(result, model, options.confidence, measured, fitted, name=name,
+                  density=density[0] if density.size == 1 else np.nan,
+                  window=_window(fitted["contact_time"], points["temperature"], options, result))
+    for remark in fit.remarks:
+        if "beyond the contact model" in remark:
+            _library.warn(remark, errors.ModelLimitWarning)
+    return fit
 
 
 def _window(time, temperature, options, result):
@@ -278,7 +292,7 @@ def _options(model, terms, known, loss, wlf, poisson_ratio, members):
     for name, value in _shear(known or {}, names[0], poisson_ratio).items():
         if name not in names:
             raise errors.DomainError(f"known: '{name}' is no constant of this model"
-                                     f"{errors.suggestion(name, names)}")
+                                     f"{errors.suggestion(name, [*names, *_FIRST])}")
         value = number(f"known: {name}", value)
         if not (1e-30 <= value <= 1e30 or (value == 0 and model == "prony")):
             raise errors.DomainError(f"known: {name} = {value:g}: must be in [1e-30, 1e30]")
@@ -293,16 +307,20 @@ def _options(model, terms, known, loss, wlf, poisson_ratio, members):
 
 def _shear(known, first, poisson_ratio):
     """Known constants, with a shear modulus, the first one, in place of E or a hardness."""
+    if not isinstance(known, dict):
+        raise TypeError(f"known = {errors.shown(known)}: must be a dict, as "
+                        '{"youngs_modulus": 5.8e8}')
     known = dict(known)
-    for name, keyword in (("youngs_modulus", "youngs"), ("shore_a", "shore_a")):
-        if name not in known:
-            continue
+    for name in _FIRST.keys() & known.keys():
         if first in known:
             raise TypeError(f"known: {first} and {name} are both given: one determines the other")
         try:
-            value = shear_modulus(**{keyword: known.pop(name)}, poisson_ratio=poisson_ratio)
+            value = shear_modulus(**{_FIRST[name]: number(f"known: {name}", known.pop(name))},
+                                  poisson_ratio=poisson_ratio)
         except errors.DomainError as why:
-            raise errors.DomainError(f"known: {why}") from None
+            text = str(why)
+            raise errors.DomainError(text if text.startswith("known: ") else f"known: {text}"
+                                     ) from None
         known[first] = float(value)
     return known
 
@@ -317,7 +335,8 @@ def _wlf(constants):
 
 
 def fit_dma(frequency: Any, storage: Any, loss: Any, temperature: Any = None, *,
-            wlf: tuple[float, float] | None = None, name: str = "", **options: Any) -> DmaFit:
+            wlf: tuple[float, float] | None = None, name: str = "", density: float = np.nan,
+            **options: Any) -> DmaFit:
     """A Prony series, of as few terms as the data carry, from storage and loss moduli.
 
     Parameters
@@ -328,8 +347,8 @@ def fit_dma(frequency: Any, storage: Any, loss: Any, temperature: Any = None, *,
         Curves of several are shifted into one.
     wlf : (float, float), optional
         C1 and C2; by default a free shift a temperature.
-    name : str
-        Of the material.
+    name, density : str, float
+        Of the material; kg/m^3.
     **options
         Members of `restitute_dma_options` (fit.h): `poisson_ratio`, `tension` (the moduli are E'
         and E''), `noise` (relative, of the moduli; default 0.01), `reference_temperature`.
@@ -354,6 +373,8 @@ def fit_dma(frequency: Any, storage: Any, loss: Any, temperature: Any = None, *,
     """
     given = {"frequency": frequency, "storage": storage, "loss": loss, "temperature": temperature}
     columns = {key: numbers(key, value) for key, value in given.items() if value is not None}
+    if not (np.isnan(number("density", density)) or 0 < density < np.inf):
+        raise errors.DomainError(f"density = {density:g}: must be finite and > 0")
     shape = broadcast(columns)
     arrays = [np.array(np.broadcast_to(one, shape)).ravel() for one in columns.values()]
     settings = _library.struct("dma_options", "fit", **_wlf(wlf), **options)
@@ -361,4 +382,8 @@ def fit_dma(frequency: Any, storage: Any, loss: Any, temperature: Any = None, *,
     pointers = [*map(_library.pointer, arrays), *([ffi.NULL] if temperature is None else [])]
     _library.interruptible(_library.fit.restitute_dma_fit, arrays[0].size, *pointers, settings,
                            result)
-    return DmaFit(result, name, bool(settings.tension), arrays)
+    largest = max(arrays[1].max(), arrays[2].max())
+    if largest < _SOFT:
+        _library.warn(f"the largest modulus is {largest:g} Pa: are moduli in Pa, not in MPa?",
+                      errors.UnitWarning)
+    return DmaFit(result, bool(settings.tension), arrays, name=name, density=density)

@@ -422,8 +422,9 @@ def as_material(name: str, value: Any) -> Material:
         return value
     if isinstance(value, (str, os.PathLike)):
         return material(value)
+    inner = isinstance(getattr(value, "material", None), Material)
     raise errors.DomainError(f"{name} = {errors.shown(value)}: must be a Material, its name or a "
-                             "file")
+                             f"file{'; did you mean fit.material?' if inner else ''}")
 
 
 def material_names() -> list[str]:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`restitute fit`: material constants from measured impacts or a DMA curve."""
 import os
+import warnings
 
 from restitute.command import options, problem
 from restitute.command.options import Refusal, bounded, number, one_of, say, shown
@@ -19,6 +20,7 @@ fitted. Columns of CURVE.csv: frequency_hz, storage_pa, loss_pa and optional tem
 
 FILE.json has the constants, the window of times of the data, and the density of the sphere, which
 is taken to be of the fitted solid: if the wall is what deforms, give --mass and not --density.
+With --dma, --density is that of the solid.
 
 Exit status: 0 done, 1 done, but the data do not follow the model or leave constants open (remarks
 say which), 2 bad usage or input, nothing written, 130 interrupted.
@@ -48,7 +50,12 @@ def add(subparsers):
         options.add(group, *row)
     options.add_figure(group, "data, fit and residuals")
     group = parser.add_argument_group("The scene of all impacts")
-    problem.add_fields(group, [name for name in problem.SCENE if name != "speed"])
+    own = ("speed", "friction")
+    problem.add_fields(group, [name for name in problem.SCENE if name not in own])
+    friction = problem.FIELDS["friction"]
+    options.add(group, "friction", "NUMBER", "coefficient of friction, on which only ex depends; "
+                "inf: no slip; default: fitted to the column ex", friction.read,
+                also=friction.older)
     options.add(group, "partner", "rigid|same|FILE|NAME", "one of the two bodies deforms "
                 "(default), both do and are of the solid, or the material of the partner",
                 problem.read_partner)
@@ -117,17 +124,24 @@ def _read_wlf(text, place):
 
 def run(arguments):
     """Fit, and write report, material file and figure."""
-    import restitute
     from restitute import _library
     from restitute.command import measured
+    from restitute.errors import ModelLimitWarning
 
     if not _library.available("fit"):
         raise Refusal("fit: this build has no component fit, which needs GSL")
     _check_kind(arguments.given)
+    warnings.simplefilter("ignore", ModelLimitWarning)  # a remark of the fit
     path = arguments.input or arguments.dma
     if arguments.name is None:
         arguments.name = os.path.basename(path)
     rows = measured.Rows(path, _DROP if arguments.input else _CURVE)
+    others, option = (_CURVE, "--dma") if arguments.input else ({**_DROP, "speed_m_s": ""},
+                                                                "--input")
+    for column in (rows.table.names[i] for i in rows.rest):
+        if column.casefold() in others:
+            raise Refusal(f"{rows.source}: column {column} is one of {option}: give {option} "
+                          f"{rows.source}")
     if "temperature" not in rows.numbers and {"wlf", "reference_temperature"} & \
             arguments.given.keys():
         raise Refusal(f"--wlf, --reference-temperature: {rows.source} has no column temperature_C")
@@ -135,7 +149,7 @@ def run(arguments):
         fit = _fit_drops(rows, measured.scene_of(rows, arguments), arguments)
     else:
         fit = _fit_curve(rows, arguments)
-    fit.material.source = f"restitute {restitute.version()} fit of {rows.source}: {fit.summary}"
+    fit.material.source = fit.origin(rows.source)
     _write(arguments, rows, fit)
     for remark in fit.remarks:
         say(f"remark: {remark}")
@@ -149,7 +163,7 @@ def _check_kind(given):
     if "input" in given and ("tension" in given or "noise" in given):
         raise Refusal("--tension, --noise: need --dma")
     for name in (*_OF_DROPS, *problem.SCENE, *problem.WORDS) if "dma" in given else ():
-        if name in given:
+        if name in given and name != "density":
             raise Refusal(f"{given[name]}: not with --dma")
 
 
@@ -181,6 +195,9 @@ def _fit_drops(rows, scene, arguments):
         raise Refusal(f"{rows.source}: column speed_m_s (or drop_height_m) is missing")
     if (arguments.model == "prony") != bool(arguments.terms):
         raise Refusal("--terms and --model prony belong together")
+    for option, name in (("--radius", "radius"), ("--density or --mass", "mass")):
+        if not {name, "density" if name == "mass" else name} & scene.keys():
+            raise Refusal(f"give {option} of the sphere (or a column in {rows.source})")
     if not numbers.keys() & {"ez", "rebound_height", "rebound_ratio", "ex", "contact_time"}:
         raise Refusal(f"{rows.source}: column ez (or rebound_height_m, rebound_ratio, ex, "
                       "contact_time_s) is missing")
@@ -225,7 +242,7 @@ def _fit_curve(rows, arguments):
     _check_outputs(arguments)
     try:
         return restitute.fit_dma(**rows.numbers, name=arguments.name,
-                                 **_given(arguments, (*_OF_BOTH, "noise", "tension")))
+                                 **_given(arguments, (*_OF_BOTH, "density", "noise", "tension")))
     except Error as why:
         raise rows.in_words(why) from None
 
@@ -261,9 +278,10 @@ def _write(arguments, rows, fit):
     said = f"{shown(rows.source)}: {fit.model}\n\n{fit}\n"
     if arguments.output:
         density, (low, high) = fit.material.density, fit.material.window
+        sphere = ", that of the sphere" if arguments.input else ""
         said += (f"  {shown(arguments.output)}: "
-                 + (f"density {density:g} kg/m^3, that of the sphere" if density > 0 else
-                    "without density")
+                 + (f"density {density:g} kg/m^3{sphere}" if density > 0 else "without density")
+                 + (", modulus assumed" if fit.assumed else "")
                  + (f", measured from {low:.3g} to {high:.3g} s\n" if high < np.inf else "\n"))
     files.write(*outputs, (None, said))
 
