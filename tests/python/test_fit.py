@@ -372,8 +372,10 @@ def test_the_density_of_moduli_is_that_of_the_material(rubber, tmp_path, monkeyp
     for bad in (-1, 0, np.inf):
         with pytest.raises(restitute.DomainError, match=f"density = {bad:g}: must be finite and >"):
             restitute.fit_dma(*curve, density=bad)
-    with pytest.warns(restitute.UnitWarning, match="are moduli in Pa, not in MPa"):
+    with pytest.warns(restitute.UnitWarning, match="median .* Pa: are moduli in Pa, not in MPa"):
         restitute.fit_dma(curve[0], curve[1] * 1e-6, curve[2] * 1e-6)
+    with pytest.warns(restitute.UnitWarning, match="1.1 kg/m.3 is less than a solid has"):
+        restitute.fit_dma(*curve, density=1.1)
     monkeypatch.chdir(tmp_path)
     np.savetxt("curve.csv", np.transpose(curve), delimiter=",", comments="",
                header="frequency_hz,storage_pa,loss_pa")

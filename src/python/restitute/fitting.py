@@ -15,7 +15,7 @@ from restitute._library import call, ffi
 from restitute.constants import shear_modulus
 from restitute.fits import MEASURED, DmaFit, DropFit
 from restitute.materials import Material, as_material
-from restitute.scenes import SCENE, Impacts
+from restitute.scenes import SCENE, Impacts, warn_of_light
 from restitute.values import broadcast, number, numbers, one_of
 
 __all__ = ["fit_dma", "fit_drop_test"]
@@ -375,6 +375,7 @@ def fit_dma(frequency: Any, storage: Any, loss: Any, temperature: Any = None, *,
     columns = {key: numbers(key, value) for key, value in given.items() if value is not None}
     if not (np.isnan(number("density", density)) or 0 < density < np.inf):
         raise errors.DomainError(f"density = {density:g}: must be finite and > 0")
+    warn_of_light({"density": density})
     shape = broadcast(columns)
     arrays = [np.array(np.broadcast_to(one, shape)).ravel() for one in columns.values()]
     settings = _library.struct("dma_options", "fit", **_wlf(wlf), **options)
@@ -382,8 +383,8 @@ def fit_dma(frequency: Any, storage: Any, loss: Any, temperature: Any = None, *,
     pointers = [*map(_library.pointer, arrays), *([ffi.NULL] if temperature is None else [])]
     _library.interruptible(_library.fit.restitute_dma_fit, arrays[0].size, *pointers, settings,
                            result)
-    largest = max(arrays[1].max(), arrays[2].max())
-    if largest < _SOFT:
-        _library.warn(f"the largest modulus is {largest:g} Pa: are moduli in Pa, not in MPa?",
-                      errors.UnitWarning)
+    middle = np.median(arrays[1])
+    if middle < _SOFT:
+        _library.warn(f"the median storage modulus is {middle:.3g} Pa: are moduli in Pa, not in "
+                      "MPa?", errors.UnitWarning)
     return DmaFit(result, bool(settings.tension), arrays, name=name, density=density)

@@ -115,7 +115,7 @@ class Impacts:
         for name, allowed in _RANGES.items():
             if name in number:
                 self._in_range(name, number[name], *allowed)
-        _warn_of_light(number)
+        warn_of_light(number)
         own = ("radius2", "inertia2", "friction", "spin2", "rotation_blocked", "wave_density")
         columns = {name: number[name] for name in own if name in number}
         for name in ("radius", "inertia", "spin"):
@@ -221,7 +221,8 @@ class Impacts:
         return f"<restitute.Impacts ({self.kind}) of shape {self.shape}>"
 
 
-def _warn_of_light(number):
+def warn_of_light(number):
+    """Of densities in g/cm^3."""
     for name in ("density", "density2"):
         value = np.ravel(number.get(name, np.inf))
         light = value[(value > 0) & (value < _LIGHT)]

@@ -50,12 +50,14 @@ def add(subparsers):
         options.add(group, *row)
     options.add_figure(group, "data, fit and residuals")
     group = parser.add_argument_group("The scene of all impacts")
-    own = ("speed", "friction")
-    problem.add_fields(group, [name for name in problem.SCENE if name not in own])
-    friction = problem.FIELDS["friction"]
-    options.add(group, "friction", "NUMBER", "coefficient of friction, on which only ex depends; "
-                "inf: no slip; default: fitted to the column ex", friction.read,
-                also=friction.older)
+    own = {"density": "density of the sphere, kg/m^3; this or --mass; with --dma of the solid",
+           "friction": "coefficient of friction, on which only ex depends; inf: no slip; default: "
+           "fitted to the column ex"}
+    for name in problem.SCENE:
+        field = problem.FIELDS[name]
+        if name != "speed":
+            options.add(group, field.option[2:], "NUMBER", own.get(name, field.help), field.read,
+                        also=field.older)
     options.add(group, "partner", "rigid|same|FILE|NAME", "one of the two bodies deforms "
                 "(default), both do and are of the solid, or the material of the partner",
                 problem.read_partner)
