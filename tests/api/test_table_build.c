@@ -551,6 +551,10 @@ static void refusals(void **state)
     refuse(&scene, &options, RESTITUTE_ERROR_DOMAIN, "speed (m/s) = nan");
     options.speed[0] = 20;
     refuse(&scene, &options, RESTITUTE_ERROR_DOMAIN, "speed (m/s) = 20 to 10");
+    options.speed[0] = 1e-15;
+    refuse(&scene, &options, RESTITUTE_ERROR_DOMAIN, "highest over lowest must be <= 1e+15");
+    options = good, options.max_impacts = 0;
+    refuse(&scene, &options, RESTITUTE_ERROR_DOMAIN, "max_impacts = 0");
     options = good, options.tolerance = 1e-9;
     refuse(&scene, &options, RESTITUTE_ERROR_DOMAIN, "tolerance");
     options = good, options.threads = -1;
@@ -571,6 +575,11 @@ static void refusals(void **state)
     scene.friction = 0.3, scene.radius1 = NAN;
     refuse(&scene, &good, RESTITUTE_ERROR_DOMAIN, "radius1");
     refuse(NULL, &good, RESTITUTE_ERROR_NULL, "scene");
+    restitute_error error;
+    const restitute_material *const materials[] = {material};
+    assert_int_equal(restitute_table_build_many(1, materials, &scene, &good, NULL, NULL, NULL, &error),
+                     RESTITUTE_ERROR_NULL);
+    assert_string_equal(error.message, "tables is NULL");
     restitute_material_destroy(material);
 }
 

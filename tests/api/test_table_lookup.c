@@ -269,7 +269,12 @@ static void bad_speeds_are_refused(void **state)
                   flags == 7,
               "%g, %g", bad[i][0], bad[i][1]);
     }
+    const double one = 1;
     assert_int_equal(restitute_table_pair(NULL, NULL, 1, 1, NULL, NULL, NULL), RESTITUTE_ERROR_NULL);
+    assert_int_equal(restitute_table_pair_many(table, NULL, 1, &one, NULL, NULL, NULL, &error), RESTITUTE_ERROR_NULL);
+    assert_string_equal(error.message, "sliding_speeds is NULL");
+    assert_int_equal(restitute_table_contact_set(table, &scene, NULL, &error), RESTITUTE_ERROR_NULL);
+    assert_string_equal(error.message, "contact is NULL");
 }
 
 /* Either output may be left out, and the error of a call that is done is empty. */
@@ -337,6 +342,11 @@ static void axes_collapse(void **state)
     CHECK(info.checks < info.impacts, "%lld checks of %lld impacts", (long long)info.checks, (long long)info.impacts);
     CHECK(look_up(smooth, 1, 0).ex == -1 && look_up(smooth, 1, 5).ex == -1 && look_up(smooth, 0, 0).ex == -1, "mu = 0");
     CHECK_NEAR(look_up(smooth, 1, 0).ez, look_up(table, 1, 0).ez, 2e-4, "ez does not know of friction");
+    restitute_table_contact contact;
+    restitute_error error;
+    restitute_table_contact_init(&contact);
+    assert_int_equal(restitute_table_contact_set(smooth, &scene, &contact, &error), RESTITUTE_ERROR_DOMAIN);
+    CHECK(strstr(error.message, "must be 0, the only one of this table"), "%s", error.message);
     restitute_table_destroy(smooth);
     ball.friction = INFINITY;
     restitute_table *rough = table_of(&ball, 1e-3, 10, 1e-4);

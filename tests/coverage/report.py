@@ -23,7 +23,7 @@ ROOMS = "src/(base|contact|euler|materials|solver|sync|table)/|fortran/(common|e
 
 
 def files_run(build):
-    """For each file of the rooms its counts of lines and of branches, and the lines without a run."""
+    """Of each file of the rooms: lines, branches, and the lines without a run."""
     command = ["gcovr", "-r", TOP, build, "--filter", ROOMS, "--json", "-", "--gcov-ignore-parse-errors"]
     found = json.loads(subprocess.run(command, capture_output=True, check=True, text=True).stdout)
     files = {}

@@ -95,7 +95,7 @@ def mutations(line, fortran):
 
 
 def candidates(room):
-    """(file, number of the line, text in its place) of a room, without comments and declarations."""
+    """(file, number of a line, line, text in its place) of a room, without comments."""
     for pattern in ROOMS[room][0]:
         for path in sorted(TOP.glob(pattern)):
             comment = False
