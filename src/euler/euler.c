@@ -269,11 +269,11 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
                           "tolerance = %g: estimated errors %.2g (ez), %.2g (ex); finer steps are lost in rounding",
                           problem->asked, outcome->error_ez, outcome->error_ex);
     if (!found || (status && status != RESTITUTE_ERROR_TOO_MUCH_WORK)) return status;
-    return rst_report(
-        error, RESTITUTE_TOLERANCE_NOT_REACHED,
-        "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) when %s was reached; the method sync is faster",
-        problem->asked, outcome->error_ez, outcome->error_ex,
-        rst_spent(problem, late || rst_time_left(problem) <= 0).text);
+    return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
+                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex); a finer run exceeds %s; "
+                      "the method sync is faster",
+                      problem->asked, outcome->error_ez, outcome->error_ex,
+                      rst_spent(problem, late || rst_time_left(problem) <= 0).text);
 }
 
 static int choose_resolution(const struct rst_problem *problem, const struct scout *scout, struct run *run,

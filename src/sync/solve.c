@@ -141,8 +141,8 @@ static int conclude(const struct rst_problem *problem, int spent, const struct r
     if (rst_meets(problem, outcome)) return rst_done(error);
     if (spent)
         return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
-                          "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) when %s was spent", problem->asked,
-                          outcome->error_ez, outcome->error_ex, rst_spent(problem, outcome->late).text);
+                          "tolerance = %g: estimated errors %.2g (ez), %.2g (ex); a finer run exceeds %s",
+                          problem->asked, outcome->error_ez, outcome->error_ex, rst_spent(problem, outcome->late).text);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
                       "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with %lld elements", problem->asked,
                       outcome->error_ez, outcome->error_ex, (long long)outcome->elements);

@@ -119,6 +119,10 @@ static void too_little_work_allowed_is_told(void **state)
 
     restitute_solver *solver;
     restitute_error error;
+    CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
+    CHECK(restitute_solve(solver, &impact, NULL, NULL, NULL, &error) == RESTITUTE_TOLERANCE_NOT_REACHED, "status");
+    CHECK(strstr(error.message, "; a finer run exceeds max_work = 0.003"), "%s", error.message);
+    restitute_solver_destroy(solver);
     restitute_result result, before;
     options.max_work = 1e-7;
     restitute_result_init(&result);
