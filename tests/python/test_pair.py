@@ -90,6 +90,22 @@ def test_a_density_in_grams_a_cubic_centimetre_is_warned_of(name):
         Impacts(RUBBER, **{**BALL, "partner": "same", "radius2": 0.001, name: 1.15})
 
 
+@pytest.mark.parametrize("name", ["radius", "radius2"])
+def test_a_radius_in_millimetres_is_warned_of(name):
+    ball = {**BALL, "partner": "same", "radius2": 0.001, name: 5}
+    with pytest.warns(restitute.UnitWarning, match=f"^{name} = 5 m is large .* in m, not mm$"):
+        Impacts(RUBBER, **ball)
+    del ball["density"]
+    Impacts(RUBBER, **ball, mass=1e3, mass2=1e3)  # no warning: the size is meant, or is a scale
+    Impacts(RUBBER, **{**BALL, "radius2": np.inf})  # a wall
+
+
+def test_a_density_in_grams_a_cubic_centimetre_of_a_material_is_warned_of():
+    light = Material.elastic(1e6, density=1.15)
+    with pytest.warns(restitute.UnitWarning, match="^density of the material = 1.15 kg/m"):
+        Impacts(light, radius=0.001, friction=0.3, speed=0.1)
+
+
 def test_materials_and_partners_broadcast_with_the_rest():
     steel = restitute.material("steel")
     result = pair([RUBBER, steel], partner=[["rigid"], ["same"], [steel]], **BALL,
@@ -142,7 +158,7 @@ def test_keywords_that_do_not_fit_together_are_refused(keywords, words):
     ({"density": np.nan}, "^density = nan: must be"),
     ({"angle": [np.inf, 0]}, r"impacts\[0\]: angle = inf: must be"),
     ({"speed": 1e999, "angle": 0.0}, "^speed = inf: must be finite"),
-    ({"radius2": 1, "density2": -1}, r"^density2 = -1: must be > 0 \(inf: held fast\)"),
+    ({"radius2": 0.1, "density2": -1}, r"^density2 = -1: must be > 0 \(inf: held fast\)"),
     ({"friction": [0, -0.1]}, r"impacts\[1\]: friction = -0.1: must be"),
     ({"radius": "wide"}, "radius = 'wide': must be a number"),
     ({"radius": True}, "radius = True: must be a number"),
@@ -267,7 +283,7 @@ def test_numbers_and_words_of_a_scene():
     assert "rigid sphere, R = 1 mm, on a wall of rubber" in restitute.describe(RUBBER, **steel)
     unknown = restitute.Material.elastic(1e6, name="rubber")
     assert "one of them of rubber" in restitute.describe(unknown, **steel)
-    assert restitute.describe(RUBBER, **BALL, partner="same", radius2=[1, np.inf]) == (
+    assert restitute.describe(RUBBER, **BALL, partner="same", radius2=[0.1, np.inf]) == (
         "sphere of rubber, R = 1 mm, on a sphere or a wall of the same: 0.01 m/s, 0 degrees, "
         "friction 0.3")
 

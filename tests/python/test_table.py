@@ -215,6 +215,11 @@ def test_speeds_of_other_shapes_and_kinds_are_refused_by_name(table):
         table.pair(0.1, np.ma.masked_array([0.1], [True]))
 
 
+def test_another_keyword_of_a_look_up_says_what_the_sliding_speed_is(table):
+    with pytest.raises(TypeError, match=r"is tangential_speed \+ radius \* spin$"):
+        table.pair(0.1, tangential_speed=0.1)
+
+
 def test_a_table_that_misses_its_tolerance_warns(rubber):
     with pytest.warns(restitute.ToleranceWarning, match="tolerance"):
         table = restitute.Table.build(rubber, **BALL, speeds=(0.01, 1), tolerance=1e-7,

@@ -28,6 +28,7 @@ _RANGES = {"speed": (0, _MOST, "must be finite and > 0"),
            "density": (0, _MOST, "must be finite and > 0"),
            "density2": (0, np.inf, "must be > 0 (inf: held fast)")}
 _LIGHT = 10  # kg/m^3: what is lighter was perhaps given in g/cm^3, in which all solids are
+_LARGE = 0.5, 500  # m: was perhaps given in mm
 
 
 class Impacts:
@@ -115,7 +116,8 @@ class Impacts:
         for name, allowed in _RANGES.items():
             if name in number:
                 self._in_range(name, number[name], *allowed)
-        warn_of_light(number)
+        warn_of_light({**number, "density of the material": [m.density for m in self.solids]})
+        _warn_of_large(number)
         own = ("radius2", "inertia2", "friction", "spin2", "rotation_blocked", "wave_density")
         columns = {name: number[name] for name in own if name in number}
         for name in ("radius", "inertia", "spin"):
@@ -223,12 +225,22 @@ class Impacts:
 
 def warn_of_light(number):
     """Of densities in g/cm^3."""
-    for name in ("density", "density2"):
+    for name in ("density", "density2", "density of the material"):
         value = np.ravel(number.get(name, np.inf))
         light = value[(value > 0) & (value < _LIGHT)]
         if light.size:
             _library.warn(f"{name} = {light[0]:g} kg/m^3 is less than a solid has; 1.15 g/cm^3 are "
                           "1150 kg/m^3", errors.UnitWarning)
+
+
+def _warn_of_large(number):
+    """Of radii in mm. A mass beside one says that the size is meant, or is a scale."""
+    for name in ("radius", "radius2"):
+        value = np.ravel(number.get(name, 0.0))
+        large = value[(value > _LARGE[0]) & (value < _LARGE[1])]
+        if large.size and name.replace("radius", "mass") not in number:
+            _library.warn(f"{name} = {large[0]:g} m is large for an impact; it is in m, not mm",
+                          errors.UnitWarning)
 
 
 def _kind(material, values):

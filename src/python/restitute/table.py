@@ -217,7 +217,8 @@ class Table:
         return made
 
     def pair(self, normal_speed: Any, sliding_speed: Any = 0.0,
-             contact: TableContact | None = None, *, check: bool = True) -> TablePairs:
+             contact: TableContact | None = None, *, check: bool = True,
+             **other: Any) -> TablePairs:
         """The pairs of impacts.
 
         Parameters
@@ -225,7 +226,7 @@ class Table:
         normal_speed : array_like
             m/s, approaching, in [0, 1e100]. Beyond the range its end is taken.
         sliding_speed : array_like
-            m/s, of the contact point, spin included. Both broadcast.
+            m/s, of the contact point: tangential speed + radius * spin. Both broadcast.
         contact : TableContact, optional
             By default the table's own.
         check : bool
@@ -241,6 +242,9 @@ class Table:
         ModelLimitWarning
             How many speeds are beyond the range of the table, or beyond a limit of the model.
         """
+        if other:
+            raise TypeError(f"'{min(other)}' is no keyword of Table.pair: give normal_speed and "
+                            "sliding_speed, which is tangential_speed + radius * spin")
         normal, sliding, shape = _speeds(normal_speed, sliding_speed)
         ez, ex = np.empty(normal.size), np.empty(normal.size)
         call(_library.table.restitute_table_pair_many, self._handle, _struct(contact), ez.size,
