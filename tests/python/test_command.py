@@ -227,6 +227,13 @@ def test_what_looks_like_another_unit_is_remarked_once(run, words, remark):
     assert err.count(remark) == 1
 
 
+def test_a_radius_in_millimetres_is_remarked_once(run):
+    words = ["pair", "--material", "steel", "--partner", "same", "--radius", "5", "--friction",
+             "0.3", "--speed", "0.5"]
+    status, _, err = run(*words)
+    assert status == 0 and err.count("radius = 5 m is large for an impact; it is in m, not mm") == 1
+
+
 def test_a_sphere_without_density_is_pointed_at_the_same_partner(run):
     err = refused(run, "pair", *BALL, "--material", "steel", "--radius2", "0.005")
     assert "--density2 or --mass2 is missing" in err and "(or --partner same: both" in err
@@ -248,6 +255,8 @@ def test_materials_are_listed_and_shown(run):
     assert all(name in listed for name in restitute.material_names())
     shown = run("materials", "show", "polyisobutylene")[1]
     assert "920 kg/m^3" in shown and shown.count("\n") == 41  # 30 terms and what stands above them
+    warm = run("materials", "polyisobutylene", "--temperature", "40")[1]
+    assert warm.startswith("Polyisobutylene (NBS), 25 C, shifted to 40 C\n")
     assert "did you mean steel?" in refused(run, "materials", "show", "stel")
 
 
@@ -305,7 +314,7 @@ def test_ranges_are_shown_to_the_last_digit(run):
     (["--friction", "-1"], "--friction = -1: must be >= 0 (inf: no slip)"),
     (["--friction", "1e-40"], "--friction = 1e-40: must be 0 or >= 1e-30 (inf: no slip)")])
 def test_what_the_library_refuses_has_the_name_of_its_option(run, words, why):
-    assert why in refused(run, "pair", "--material", "steel", "--radius", "1", "--speed", "1",
+    assert why in refused(run, "pair", "--material", "steel", "--radius", "0.1", "--speed", "1",
                           *words)
 
 

@@ -58,6 +58,7 @@ def run(arguments):
         options.need("matplotlib", "--figure")
     material = restitute.material(word, temperature=arguments.temperature)
     if arguments.temperature is not None:
+        material.name = f"{material.name or material.model}, shifted to {arguments.temperature:g} C"
         material.source += f"; relaxation times at {arguments.temperature:g} C"
     text = (provenance.text(document(material)) if arguments.format == "json" else
             _page(material))
