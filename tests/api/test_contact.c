@@ -82,8 +82,8 @@ static void bad_options_are_named(void **unused)
 {
     (void)unused;
     refuse_options(1, 1, 8, 4, "struct_size");
-    refuse_options(0, 3, 8, 4, "deformable = 3");
-    refuse_options(0, 1, 12, 4, "elements = 12");
+    refuse_options(0, 3, 8, 4, "deformable = 3: must be 1 or 2 bodies");
+    refuse_options(0, 1, 12, 4, "elements = 12: must be 8, 16, 24 or 32");
     refuse_options(0, 1, 40, 4, "elements = 40");
     refuse_options(0, 1, 8, 0, "terms = 0");
     refuse_options(0, 1, 8, 9, "terms = 9");
