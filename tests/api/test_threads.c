@@ -6,20 +6,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../support/solve.h"
+#include "../support/fit.h"
+#include "../support/table.h"
 #include <restitute/bem.h>
 #include <restitute/contact.h>
 #include <restitute/cvode.h>
-#include <restitute/fit.h>
-#include <restitute/table.h>
 
-enum { threads = 6, rounds = 3, most_numbers = 4096 };
+enum { threads = 6, rounds = 3, most_numbers = 1024 };
 
 /* What all threads share. */
 static struct {
     pthread_barrier_t begin;
     pthread_mutex_t lock; /* of the plan, which one thread at a time may use */
-    restitute_material *rubber;
     restitute_scene scene;
     restitute_plan *plan;
     restitute_contact_law *law;
@@ -27,40 +25,28 @@ static struct {
     restitute_table *table;
 } shared;
 
-/* cmocka fails in its own thread alone: a job keeps its worst status. */
+/* What a thread computed. A check that fails in it ends the program. */
 struct job {
     size_t count;
     double number[most_numbers];
-    int worst;
-    restitute_error error, why;
 };
+
+static _Thread_local restitute_error error;
+#define MUST(call) CHECK((call) >= 0, "%s", error.message)
 
 static void give(struct job *job, double number)
 {
-    if (job->count < most_numbers) job->number[job->count++] = number;
-}
-
-static void must(struct job *job, int status)
-{
-    if (status < job->worst) job->worst = status, job->why = job->error;
+    CHECK(job->count < most_numbers, "too many numbers");
+    job->number[job->count++] = number;
 }
 
 static void solve_by(struct job *job, const restitute_method *method, double tolerance)
 {
     restitute_options options = to_tolerance(tolerance);
-    restitute_solver *solver = NULL;
-    restitute_result result;
-    restitute_ledger ledger;
     options.method = method;
-    restitute_result_init(&result);
-    restitute_ledger_init(&ledger);
-    must(job, restitute_solver_create(&options, &solver, &job->error));
-    for (int i = 0; i < 2 && solver; i++) {
-        must(job, restitute_solve_scene(solver, &shared.scene, &result, &ledger, NULL, &job->error));
-        give(job, result.ez);
-        give(job, result.ex);
-    }
-    restitute_solver_destroy(solver);
+    const struct solution s = solve_scene(options, &shared.scene);
+    give(job, s.result.ez);
+    give(job, s.result.ex);
 }
 
 static void core(struct job *job)
@@ -75,17 +61,33 @@ static void core(struct job *job)
         impacts[i] = impact_of(7.0 / 6, 0.3 * i, 1, 1);
         restitute_result_init(&results[i]);
     }
-    must(job, restitute_solve_many(5, impacts, &options, results, NULL, &job->error));
+    MUST(restitute_solve_many(5, impacts, &options, results, NULL, &error));
     give(job, results[4].ex);
     restitute_result_init(&result);
     pthread_mutex_lock(&shared.lock);
-    must(job, restitute_plan_solve(shared.plan, 0.4, &result, NULL, NULL, &job->error));
+    MUST(restitute_plan_solve(shared.plan, 0.4, &result, NULL, NULL, &error));
     pthread_mutex_unlock(&shared.lock);
     give(job, result.ex);
 }
 
-static void contact_and_table(struct job *job)
+#ifdef RESTITUTE_WITH_TABLE
+static restitute_table *build_table(double low, double high, double tolerance)
 {
+    restitute_table *table = NULL;
+    restitute_table_options options;
+    restitute_table_options_init(&options);
+    options.speed[0] = low;
+    options.speed[1] = high;
+    options.tolerance = tolerance;
+    options.threads = 2;
+    MUST(restitute_table_build(&shared.scene, &options, &table, &error));
+    return table;
+}
+#endif
+
+static void components(struct job *job)
+{
+    (void)job;
 #ifdef RESTITUTE_WITH_CONTACT
     double state[48] = {0};
     restitute_contact_motion motion;
@@ -96,131 +98,94 @@ static void contact_and_table(struct job *job)
     motion.velocity[0] = motion.velocity[2] = 1e-2;
     for (int i = 1; i <= 40; i++) {
         motion.overlap = 1e-7 * i;
-        must(job, restitute_contact_step(shared.law, &shared.rates, &motion, state, &force, &job->error));
+        MUST(restitute_contact_step(shared.law, &shared.rates, &motion, state, &force, &error));
         give(job, force.normal + force.tangential[0]);
     }
 #endif
 #ifdef RESTITUTE_WITH_TABLE
-    restitute_table *own = NULL;
-    restitute_table_options options;
-    double ez, ex;
     for (int i = 1; i <= 40; i++) {
-        must(job, restitute_table_pair(shared.table, NULL, 0.003 * i, 0.01 * i, &ez, &ex, &job->error));
-        give(job, ez + ex);
+        const struct pair pair = look_up(shared.table, 0.003 * i, 0.01 * i);
+        give(job, pair.ez + pair.ex);
     }
-    restitute_table_options_init(&options);
-    options.speed[0] = options.speed[1] = 0.1;
-    options.tolerance = 1e-2;
-    options.threads = 2;
-    must(job, restitute_table_build(&shared.scene, &options, &own, &job->error));
-    must(job, restitute_table_pair(own, NULL, 0.1, 0.1, &ez, &ex, &job->error));
-    give(job, ez + ex);
+    restitute_table *own = build_table(0.1, 0.1, 1e-2);
+    give(job, look_up(own, 0.1, 0.1).ex);
     restitute_table_destroy(own);
 #endif
-    (void)job;
-}
-
-static void other_methods(struct job *job)
-{
 #ifdef RESTITUTE_WITH_CVODE
     solve_by(job, restitute_method_cvode(), 1e-2);
 #endif
+}
+
+static void slow_components(struct job *job)
+{
+    (void)job;
 #ifdef RESTITUTE_WITH_BEM
     solve_by(job, restitute_method_bem(), 1e-2);
 #endif
 #ifdef RESTITUTE_WITH_FIT
     restitute_fit_point points[3];
-    restitute_fit_options options;
-    restitute_fit_result result;
+    restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_KELVIN_VOIGT);
     restitute_scene scenes[3];
-    restitute_fit_options_init(&options);
-    restitute_fit_result_init(&result);
-    options.model = RESTITUTE_FIT_MODEL_KELVIN_VOIGT;
-    options.starts = 1;
-    options.threads = 2;
+    drops(3, 0.1, 0.3, scenes, points);
     for (int i = 0; i < 3; i++) {
-        restitute_fit_point_init(&points[i]);
-        scenes[i] = shared.scene;
-        scenes[i].material = NULL;
-        scenes[i].tangential_speed = 0;
-        scenes[i].normal_speed = 0.1 * (i + 1);
-        points[i].scene = &scenes[i];
         points[i].ez = 0.9 - 0.05 * i;
         points[i].contact_time = 1e-3 * (3 - 0.3 * i);
     }
-    must(job, restitute_fit(3, points, &options, &result, &job->error));
+    options.starts = 1;
+    options.threads = 2;
+    const restitute_fit_result result = fitted(3, points, &options);
     give(job, result.value[0]);
     restitute_material_destroy(result.material);
 #endif
-    (void)job;
 }
 
 static void *work(void *data)
 {
-    struct job *job = data;
     pthread_barrier_wait(&shared.begin);
+    slow_components(data);
     for (int i = 0; i < rounds; i++) {
-        core(job);
-        contact_and_table(job);
-        if (i == 0) other_methods(job);
+        core(data);
+        components(data);
     }
     return NULL;
 }
 
-static void share(void)
+/* A job for each of n threads that begin at once. */
+static void work_by(int n, struct job *jobs)
 {
-    restitute_error error;
-    restitute_options options = to_tolerance(1e-4);
-    CHECK(restitute_material_standard_solid(1e6, 3e6, 300, 0.5, &shared.rubber, &error) == 0, "%s", error.message);
-    restitute_scene_init(&shared.scene);
-    shared.scene.material = shared.rubber;
-    shared.scene.radius1 = 0.005;
-    shared.scene.mass1 = 0.004;
-    shared.scene.friction = 0.3;
-    shared.scene.normal_speed = shared.scene.tangential_speed = 0.1;
-    options.method = restitute_method_sync();
-    CHECK(restitute_plan_create_scene(&shared.scene, &options, &shared.plan, &error) == 0, "%s", error.message);
-#ifdef RESTITUTE_WITH_CONTACT
-    CHECK(restitute_contact_law_create(shared.rubber, NULL, &shared.law, &error) == 0, "%s", error.message);
-    assert_int_equal(restitute_contact_law_state_size(shared.law), 48);
-    restitute_contact_rates_init(&shared.rates);
-    CHECK(restitute_contact_rates_set(shared.law, 1e-5, &shared.rates, &error) == 0, "%s", error.message);
-#endif
-#ifdef RESTITUTE_WITH_TABLE
-    restitute_table_options of_table;
-    restitute_table_options_init(&of_table);
-    of_table.speed[0] = 0.01;
-    of_table.speed[1] = 0.1;
-    of_table.tolerance = 1e-3;
-    of_table.threads = 2;
-    CHECK(restitute_table_build(&shared.scene, &of_table, &shared.table, &error) == 0, "%s", error.message);
-#endif
+    pthread_t thread[threads];
+    pthread_barrier_init(&shared.begin, NULL, (unsigned)n);
+    for (int i = 0; i < n; i++)
+        CHECK(pthread_create(&thread[i], NULL, work, &jobs[i]) == 0, "thread %d", i);
+    for (int i = 0; i < n; i++)
+        pthread_join(thread[i], NULL);
+    pthread_barrier_destroy(&shared.begin);
 }
 
 static void threads_share_what_they_may(void **state)
 {
-    static struct job alone, job[threads];
-    pthread_t thread[threads];
+    static struct job alone, jobs[threads];
+    restitute_options options = to_tolerance(1e-4);
+    restitute_material *rubber;
     (void)state;
-    share();
+    shared.scene = ball_on(1.0 / 3, &rubber);
+    shared.scene.normal_speed = shared.scene.tangential_speed = 0.1;
+    options.method = restitute_method_sync();
+    MUST(restitute_plan_create_scene(&shared.scene, &options, &shared.plan, &error));
+#ifdef RESTITUTE_WITH_CONTACT
+    MUST(restitute_contact_law_create(rubber, NULL, &shared.law, &error));
+    restitute_contact_rates_init(&shared.rates);
+    MUST(restitute_contact_rates_set(shared.law, 1e-5, &shared.rates, &error));
+#endif
+#ifdef RESTITUTE_WITH_TABLE
+    shared.table = build_table(0.01, 0.1, 1e-3);
+#endif
     pthread_mutex_init(&shared.lock, NULL);
-    pthread_barrier_init(&shared.begin, NULL, 1);
-    work(&alone);
-    pthread_barrier_destroy(&shared.begin);
-    CHECK(alone.worst == 0, "alone: %s", alone.why.message);
-    CHECK(alone.count > 3 && alone.count < most_numbers, "%zu numbers", alone.count);
-    pthread_barrier_init(&shared.begin, NULL, threads);
+    work_by(1, &alone);
+    work_by(threads, jobs);
     for (int i = 0; i < threads; i++)
-        CHECK(pthread_create(&thread[i], NULL, work, &job[i]) == 0, "thread %d", i);
-    for (int i = 0; i < threads; i++)
-        pthread_join(thread[i], NULL);
-    pthread_barrier_destroy(&shared.begin);
+        CHECK(alone.count > 3 && memcmp(&jobs[i], &alone, sizeof alone) == 0, "thread %d differs", i);
     pthread_mutex_destroy(&shared.lock);
-    for (int i = 0; i < threads; i++) {
-        CHECK(job[i].worst == 0, "thread %d: %s", i, job[i].why.message);
-        CHECK(job[i].count == alone.count && memcmp(job[i].number, alone.number, sizeof alone.number) == 0,
-              "thread %d differs", i);
-    }
 #ifdef RESTITUTE_WITH_TABLE
     restitute_table_destroy(shared.table);
 #endif
@@ -228,7 +193,7 @@ static void threads_share_what_they_may(void **state)
     restitute_contact_law_destroy(shared.law);
 #endif
     restitute_plan_destroy(shared.plan);
-    restitute_material_destroy(shared.rubber);
+    restitute_material_destroy(rubber);
 }
 
 int main(void)
