@@ -8,5 +8,4 @@ shift
 for method; do
     "$programs/extremes" "$method" 128 1 496 0.01 2>&1 # corners and random impacts
 done
-[ ! -x "$programs/extreme_contacts" ] || "$programs/extreme_contacts" 100000 1
 [ ! -x "$programs/extreme_tables" ] || "$programs/extreme_tables" 100000 1 0 5

@@ -1,10 +1,12 @@
-/* The contact law of DEM: any law, step and motion, states that were damaged, one and many.
+/* The contact law of DEM: any law and step; contacts that approach, stop, slide, turn, separate and
+ * jump; states that were damaged; one and many.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <restitute/contact.h>
 
 #include "fuzz.h"
 
-enum { contacts = 5, steps = 12 };
+enum { contacts = 5, steps = 200 };
+static long steps_made;
 
 static restitute_contact_law *any_law(struct bytes *b, const restitute_material *material)
 {
@@ -48,74 +50,125 @@ static restitute_contact_motion any_motion(struct bytes *b, double radius, doubl
     return m;
 }
 
+/* Driven step by step alone (`state`), and with the others in one call (`many`). */
+struct contact {
+    double *state, *many, *before;
+    restitute_contact_motion motion;
+    double way[3]; /* of a step: along x, across, and closing, m */
+    double lost[2];
+    int status, damaged;
+};
+
+/* Goes on, begins another leg, or jumps anywhere. */
+static void move(struct bytes *b, struct contact *c, double radius, double step)
+{
+    restitute_contact_motion *m = &c->motion;
+    const double *n = m->normal, *way = c->way;
+    const int kind = below(b, 32);
+    if (kind == 0 || c->status < 0) {
+        *m = any_motion(b, radius, step);
+        return;
+    }
+    if (kind < 4) {
+        for (int k = 0; k < 2; k++)
+            c->way[k] = m->overlap * signed_number(b, 1e-3, 1);
+        c->way[2] = kind == 1 ? 0 : 0.1 * m->overlap * signed_number(b, 1e-3, 1);
+    }
+    m->overlap += way[2];
+    m->velocity[0] = way[0] / step;
+    m->velocity[1] = (way[1] * n[2] + way[2] * n[1]) / step;
+    m->velocity[2] = (way[2] * n[2] - way[1] * n[1]) / step;
+}
+
 static void check_force(const restitute_contact_force *f, double friction, int damaged)
 {
     const double t = hypot(hypot(f->tangential[0], f->tangential[1]), f->tangential[2]);
     REQUIRE(isfinite(f->normal) && f->normal >= 0 && isfinite(t), "force %g, %g", f->normal, t);
-    REQUIRE(damaged || t <= friction * f->normal * (1 + 1e-9), "%.17g > %g times %.17g", t, friction, f->normal);
+    REQUIRE(damaged || t <= friction * f->normal * (1 + 1e-12), "%.17g > %g times %.17g", t, friction, f->normal);
+}
+
+/* Losses never fall; what a contact stores is not negative. */
+static void check_details(const restitute_contact_law *law, double radius, struct contact *c)
+{
+    restitute_contact_details d;
+    restitute_contact_details_init(&d);
+    if (CALL_FLAGS(restitute_contact_details_get, law, radius, c->state, &d) < 0 || c->damaged) return;
+    REQUIRE(d.friction >= c->lost[0] && d.viscous >= c->lost[1], "losses %g %g after %g %g", d.friction, d.viscous,
+            c->lost[0], c->lost[1]);
+    REQUIRE(d.stored >= 0 && isfinite(d.stored + d.work + d.friction + d.viscous), "stored %g, work %g", d.stored,
+            d.work);
+    REQUIRE(d.stick_radius >= 0 && d.stick_radius <= d.contact_radius, "radii %g %g", d.contact_radius, d.stick_radius);
+    c->lost[0] = d.friction, c->lost[1] = d.viscous;
+}
+
+/* Alone; beside what it gave among many. */
+static void step_alone(struct bytes *b, const restitute_contact_law *law, const restitute_contact_rates *rates,
+                       struct contact *c, const restitute_contact_force *batch, int status)
+{
+    restitute_contact_force force = {0}, again;
+    const double *f = &force.normal, *g = &batch->normal;
+    const size_t size = restitute_contact_law_state_size(law);
+    memcpy(c->before, c->state, size * sizeof(double));
+    restitute_contact_motion *given = below(b, 16) ? NULL : sized(b, &c->motion);
+    if (given && given->struct_size != sizeof *given)
+        REQUIRE(CALL(restitute_contact_step, law, rates, given, c->state, &force) < 0, "struct_size");
+    free(given);
+    c->status = CALL_IF(!c->damaged, restitute_contact_step, law, rates, &c->motion, c->state, &force);
+    REQUIRE(c->status == status, "%d alone, %d of many", c->status, status);
+    for (size_t i = 0; i < size; i++) /* but for the sign of a zero, and NaN where there was damage */
+        REQUIRE(c->state[i] == c->many[i] || c->damaged, "state %zu: %.17g alone, %.17g of many", i, c->state[i],
+                c->many[i]);
+    if (c->status < 0) {
+        REQUIRE(c->damaged || memcmp(c->before, c->state, size * sizeof(double)) == 0, "a failed step wrote; %s",
+                fuzz_error.message);
+        return;
+    }
+    steps_made++;
+    check_force(&force, c->motion.friction, c->damaged);
+    for (int j = 0; j < 4; j++)
+        REQUIRE(f[j] == g[j], "%.17g alone, %.17g of many", f[j], g[j]);
+    check_details(law, c->motion.radius, c);
+    if (CALL_FLAGS(restitute_contact_peek, law, c->motion.normal, c->state, &again) == 0) check_force(&again, 0, 1);
 }
 
 static void run(struct bytes *b, const restitute_contact_law *law, const restitute_contact_rates *rates)
 {
-    const size_t size = restitute_contact_law_state_size(law), bytes = size * sizeof(double);
-    const double radius = number(b, 1e-6, 10);
-    double *state[contacts], *many[contacts], *before = malloc(bytes);
-    int damaged = 0;
-    const size_t n = (size_t)(1 + below(b, contacts));
-    for (size_t i = 0; i < n; i++) {
-        state[i] = calloc(size, sizeof(double));
-        many[i] = calloc(size, sizeof(double));
+    struct contact c[contacts] = {{0}};
+    double *many[contacts];
+    const double radius = number(b, 1e-12, 1e12);
+    const size_t n = (size_t)(1 + below(b, contacts)), size = restitute_contact_law_state_size(law);
+    for (size_t i = 0; i < n; i++) { /* a block each: the address sanitizer sees what writes beyond */
+        c[i].state = calloc(size, sizeof(double)), c[i].before = calloc(size, sizeof(double));
+        c[i].many = many[i] = calloc(size, sizeof(double));
+        c[i].status = -1;
     }
     for (int k = 0; k < steps && b->left; k++) {
         restitute_contact_motion motion[contacts];
-        restitute_contact_force force[contacts], batch[contacts];
-        int statuses[contacts], odd = below(b, 16);
+        restitute_contact_force batch[contacts];
+        int statuses[contacts];
+        const int odd = below(b, 64);
         if (odd == 0) { /* damage, the same in both */
             const size_t place = (size_t)take(b, 2) % size;
-            const double value = signed_number(b, 1e-9, 1e9);
-            state[0][place] = many[0][place] = value;
-            damaged = 1;
+            c[0].state[place] = c[0].many[place] = signed_number(b, 1e-9, 1e9);
+            c[0].damaged = 1;
         }
-        memset(batch, 0x5a, sizeof batch);
-        for (size_t i = 0; i < n; i++)
-            motion[i] = any_motion(b, radius, rates->step);
-        damaged ? CALL_FLAGS(restitute_contact_step_many, law, rates, n, motion, many, batch, statuses)
-                : CALL(restitute_contact_step_many, law, rates, n, motion, many, batch, statuses);
         for (size_t i = 0; i < n; i++) {
-            memset(&force[i], 0x5a, sizeof force[i]);
-            memcpy(before, state[i], bytes);
-            restitute_contact_motion *given = i ? NULL : sized(b, &motion[i]);
-            if (given && given->struct_size != sizeof *given)
-                REQUIRE(CALL(restitute_contact_step, law, rates, given, state[i], &force[i]) < 0, "struct_size");
-            free(given);
-            const restitute_contact_motion *m = &motion[i];
-            const int status = damaged ? CALL_FLAGS(restitute_contact_step, law, rates, m, state[i], &force[i])
-                                       : CALL(restitute_contact_step, law, rates, m, state[i], &force[i]);
-            REQUIRE(status == statuses[i], "contact %zu: %d alone, %d of many", i, status, statuses[i]);
-            if (status < 0)
-                REQUIRE(damaged || memcmp(before, state[i], bytes) == 0, "a failed step wrote; %s", fuzz_error.message);
-            else
-                check_force(&force[i], m->friction, damaged && i == 0);
-            const double *f = &force[i].normal, *g = &batch[i].normal;
-            for (int j = 0; j < 4; j++) /* but for the sign of a zero */
-                REQUIRE(status < 0 || f[j] == g[j], "contact %zu: %.17g alone, %.17g of many", i, f[j], g[j]);
+            move(b, &c[i], radius, rates->step);
+            motion[i] = c[i].motion;
         }
-        restitute_contact_details d;
-        restitute_contact_force again;
-        restitute_contact_details_init(&d);
-        if (CALL_FLAGS(restitute_contact_details_get, law, radius, state[0], &d) == 0)
-            REQUIRE(damaged || (d.contact_radius >= 0 && d.stick_radius >= 0 && d.friction >= 0 && d.viscous >= 0 &&
-                                isfinite(d.work + d.stored)),
-                    "losses %g, %g", d.friction, d.viscous);
-        if (CALL_FLAGS(restitute_contact_peek, law, motion[0].normal, state[0], &again) == 0) check_force(&again, 0, 1);
-        if (odd == 1) CALL_FLAGS(restitute_contact_turn, law, motion[0].normal, motion[n - 1].normal, state[0]);
-        memcpy(many[0], state[0], bytes);
+        CALL_IF(!c[0].damaged, restitute_contact_step_many, law, rates, n, motion, many, batch, statuses);
+        for (size_t i = 0; i < n; i++)
+            step_alone(b, law, rates, &c[i], &batch[i], statuses[i]);
+        if (odd == 1) CALL_FLAGS(restitute_contact_turn, law, motion[0].normal, motion[n - 1].normal, c[0].state);
+        memcpy(many[0], c[0].state, size * sizeof(double));
     }
-    for (size_t i = 0; i < n; i++) {
-        free(state[i]);
-        free(many[i]);
-    }
-    free(before);
+    for (size_t i = 0; i < n; i++)
+        free(c[i].state), free(c[i].many), free(c[i].before);
+}
+
+__attribute__((destructor)) static void say_steps(void)
+{
+    printf("%ld steps alone, and in batches\n", steps_made);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -132,7 +185,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                       number(&b, 1e-3, 10), &limit);
     if (status < 0) limit = 1e-6;
     REQUIRE(limit > 0 && isfinite(limit), "limit %g s", limit);
-    const double step = below(&b, 2) ? limit * number(&b, 1e-3, 10) : number(&b, 1e-9, 1e-3);
+    const double step = below(&b, 2) ? limit * number(&b, 1e-3, 10) : number(&b, 1e-12, 1e12);
     status = CALL(restitute_contact_rates_set, law, step, &rates);
     REQUIRE((status == RESTITUTE_OK) == (step >= 1e-60 && step <= 1e60), "step %g s: %d", step, status);
     if (status == RESTITUTE_OK) run(&b, law, &rates);

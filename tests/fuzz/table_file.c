@@ -78,8 +78,7 @@ static void look_up(const restitute_table *table, struct bytes *b)
         sliding[i] = signed_number(b, 1e-4, 1e2);
     }
     /* a contact that restitute_table_contact_set did not fill may overflow, but gives a pair */
-    const int status = given ? CALL_FLAGS(restitute_table_pair_many, table, given, n, normal, sliding, ez, ex)
-                             : CALL(restitute_table_pair_many, table, NULL, n, normal, sliding, ez, ex);
+    const int status = CALL_IF(!given, restitute_table_pair_many, table, given, n, normal, sliding, ez, ex);
     for (int i = 0; i < n; i++) {
         int flags = 0;
         if (status == RESTITUTE_OK)
@@ -89,8 +88,7 @@ static void look_up(const restitute_table *table, struct bytes *b)
         if (CALL_FLAGS(restitute_table_pair, table, given, normal[i], sliding[i], &one[0], &one[1]) == RESTITUTE_OK)
             check_pair(one[0], one[1]);
         REQUIRE(status < 0 || (one[0] == ez[i] && one[1] == ex[i]), "%g of many, %g alone", ez[i], one[0]);
-        given ? CALL_FLAGS(restitute_table_flags, table, given, normal[i], sliding[i], &flags)
-              : CALL(restitute_table_flags, table, NULL, normal[i], sliding[i], &flags);
+        CALL_IF(!given, restitute_table_flags, table, given, normal[i], sliding[i], &flags);
         REQUIRE(flags >= 0 && flags < 32, "flags %d", flags);
     }
     free(kept);
