@@ -9,15 +9,13 @@
 #define _POSIX_C_SOURCE 200809L
 #include <restitute/table.h>
 
-#include "../support/remarks.h"
 #include "extremes.h"
 
 enum { block = 1000, most_terms = 30, samples = 20 };
 
 struct tally {
     long tables, missed, failed, lookups, compared, beyond;
-    double worst; /* error over the stated one */
-    long worst_case;
+    struct worst worst; /* error over the stated one */
     double slowest;
     struct remark remarks[most_remarks];
 };
@@ -91,7 +89,7 @@ static void check_errors(struct tally *t, const restitute_table *table, restitut
             fmax((fabs(ez - r.ez) - r.error_ez) / info.error_ez, (fabs(ex - r.ex) - r.error_ex) / info.error_ex);
         t->compared++;
         t->beyond += ratio > 1;
-        if (ratio > t->worst) t->worst = ratio, t->worst_case = current;
+        keep_worst(&t->worst, ratio);
         EXPECT(ratio <= 2, "at %.17g, %.17g m/s: ez %.9g ex %.9g, sync %.9g %.9g, stated errors %.2g %.2g",
                scene.normal_speed, scene.tangential_speed, ez, ex, r.ez, r.ex, info.error_ez, info.error_ex);
     }
@@ -154,11 +152,8 @@ int main(int argc, char **argv)
     }
     printf("%ld tables (%ld above their tolerance, %ld failed), slowest %.2f s, %ld look-ups\n", t.tables, t.missed,
            t.failed, t.slowest, t.lookups);
-    for (int k = 0; k < most_remarks; k++)
-        if (t.remarks[k].count > 0)
-            printf("%8ld times status %d: %s\n", t.remarks[k].count, t.remarks[k].status, t.remarks[k].text);
+    print_remarks(t.remarks);
     printf("%ld compared with sync: %ld beyond the stated error, worst %.3g of it (case %ld); faults %ld\n", t.compared,
-           t.beyond, t.worst, t.worst_case, faults);
-    free_remarks(t.remarks);
+           t.beyond, t.worst.value, t.worst.number, faults);
     return faults > 0;
 }

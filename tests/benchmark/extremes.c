@@ -14,7 +14,6 @@
 #include <restitute/cvode.h>
 #endif
 
-#include "../support/remarks.h"
 #include "extremes.h"
 
 enum { most_terms = 30, block = 64, CHI = 4, PSI = 7, DELTA1 = 4, GAMMA = 5, TOLERANCES = 4 };
@@ -32,11 +31,12 @@ struct drawn_case {
     double tolerance;
 };
 
-/* Errors over estimates of the samples of a second method. */
-struct agreement {
+/* Of a class. Errors are over the estimates of the samples that a second method solved. */
+struct tally {
+    long status[4]; /* OK, NO_REBOUND, TOLERANCE_NOT_REACHED, failed */
+    double seconds;
     long compared, unknown, low, far;
-    double worst;
-    long worst_case;
+    struct worst error;
 };
 
 struct campaign {
@@ -44,10 +44,9 @@ struct campaign {
     restitute_solver *solver[TOLERANCES], *second[TOLERANCES];
     int every; /* so many cases are one sample of the second method */
     uint64_t seed;
-    long status[CLASSES][3], refused[CLASSES]; /* OK, NO_REBOUND, TOLERANCE_NOT_REACHED */
-    double seconds[CLASSES], slowest, worst_residual;
-    long slowest_case, residual_case, ledgers, batched;
-    struct agreement agreement[CLASSES];
+    long ledgers, batched;
+    struct worst slowest, residual;
+    struct tally tally[CLASSES];
     struct remark remarks[most_remarks];
 };
 
@@ -104,14 +103,9 @@ static struct drawn_case draw(const struct campaign *c, long number)
 
 static void print_case(const struct drawn_case *d)
 {
-    double g_inf, eta, tau[most_terms], g[most_terms];
-    printf("    %s, tolerance %g: chi %.17g psi %.17g delta1 %.17g gamma %.17g\n", class_name[d->class], d->tolerance,
-           d->impact.chi, d->impact.psi, d->impact.delta1, d->impact.gamma);
-    if (!d->material || restitute_material_series(d->material, &g_inf, &eta, tau, g, NULL) < 0) return;
-    printf("    G_inf %.17g eta %.17g", g_inf, eta);
-    for (size_t k = 0; k < restitute_material_terms(d->material); k++)
-        printf(" (%.17g, %.17g)", tau[k], g[k]);
-    printf("\n");
+    printf("    %s, %zu terms, tolerance %g: chi %.17g psi %.17g delta1 %.17g gamma %.17g\n", class_name[d->class],
+           restitute_material_terms(d->material), d->tolerance, d->impact.chi, d->impact.psi, d->impact.delta1,
+           d->impact.gamma);
 }
 
 static int is_pair(double ez, double ex)
@@ -138,8 +132,9 @@ static void check_result(const struct drawn_case *d, int status, const restitute
            "TOLERANCE_NOT_REACHED with %g, message '%s'", error, message);
 }
 
-/* Parts of the energy are not negative and add up with the residual, which the estimate of e_z
- * covers: an error of e_z changes its square by up to twice as much. */
+/* Parts of the energy are not negative and add up with the residual. The estimate of e_z, which ends
+ * at 1, covers what the rebound differs by from its square. It is an estimate, not a bound: a fault
+ * is ten times as much, as in compare(). */
 static void check_ledger(struct campaign *c, const restitute_result *r, const restitute_ledger *l)
 {
     const double parts[] = {l->rebound_z,  l->viscous_z, l->left_z, l->rebound_x,
@@ -149,19 +144,17 @@ static void check_ledger(struct campaign *c, const restitute_result *r, const re
     EXPECT(fabs(parts[0] + parts[1] + parts[2] + l->residual_z - 1) <= 1e-12, "z adds up to %g",
            parts[0] + parts[1] + parts[2] + l->residual_z);
     EXPECT(isfinite(l->residual_z) && isfinite(l->residual_x), "residuals %g %g", l->residual_z, l->residual_x);
-    EXPECT(fabs(l->rebound_z - r->ez * r->ez) <= 2 * r->error_ez + 1e-12, /* ez ends at 1 */
-           "rebound %.17g of ez %.17g", l->rebound_z, r->ez);
+    EXPECT(fabs(l->rebound_z - r->ez * r->ez) <= 10 * r->error_ez + 1e-12, "rebound %.17g of ez %.17g", l->rebound_z,
+           r->ez);
     c->ledgers++;
-    if (!(fabs(l->residual_z) > c->worst_residual)) return;
-    c->worst_residual = fabs(l->residual_z);
-    c->residual_case = current;
+    keep_worst(&c->residual, fabs(l->residual_z));
 }
 
 /* What two results differ by beyond the estimate of the second, over that of the first. */
 static void compare(struct campaign *c, const struct drawn_case *d, int k, const restitute_result *r)
 {
     restitute_result other;
-    struct agreement *a = &c->agreement[d->class];
+    struct tally *a = &c->tally[d->class];
     restitute_result_init(&other);
     const int status = restitute_solve(c->second[k], &d->impact, &other, NULL, NULL, NULL);
     const double z = fabs(r->ez - other.ez) - other.error_ez - 1e-15,
@@ -174,19 +167,17 @@ static void compare(struct campaign *c, const struct drawn_case *d, int k, const
     a->compared++;
     a->low += ratio > 1;
     a->far += ratio > 10;
-    if (ratio > 10 && fmax(z, x) > d->tolerance) { /* wrong, and nothing says so */
-        fault("ez %.9g ex %.9g, estimates %.2g %.2g; second method %.9g %.9g, %.2g %.2g: %.3g times", r->ez, r->ex,
-              r->error_ez, r->error_ex, other.ez, other.ex, other.error_ez, other.error_ex, ratio);
-        if (faults <= shown_faults) print_case(d);
-    }
-    if (ratio > a->worst) a->worst = ratio, a->worst_case = current;
+    EXPECT(ratio <= 10 || fmax(z, x) <= d->tolerance, /* wrong, and nothing says so */
+           "ez %.9g ex %.9g, estimates %.2g %.2g; second method %.9g %.9g, %.2g %.2g: %.3g times", r->ez, r->ex,
+           r->error_ez, r->error_ex, other.ez, other.ex, other.error_ez, other.error_ex, ratio);
+    keep_worst(&a->error, ratio);
 }
 
 static void solve_case(struct campaign *c, const struct drawn_case *d, int *status, restitute_result *r)
 {
     restitute_error error = {0};
     restitute_ledger ledger;
-    const int k = (int)(current % TOLERANCES), has_ledger = current % 16 == 3 && d->impact.psi >= 1e-3;
+    const int k = (int)(current % TOLERANCES), with_ledger = current % 16 == 3 && d->impact.psi >= 1e-3;
     const long before = faults;
     restitute_ledger_init(&ledger);
     restitute_result_init(r);
@@ -194,53 +185,51 @@ static void solve_case(struct campaign *c, const struct drawn_case *d, int *stat
     alarm(60); /* hangs */
     feclearexcept(FE_ALL_EXCEPT);
     const double start = processor_time();
-    *status = restitute_solve(c->solver[k], &d->impact, r, has_ledger ? &ledger : NULL, NULL, &error);
+    *status = restitute_solve(c->solver[k], &d->impact, r, with_ledger ? &ledger : NULL, NULL, &error);
     const double taken = processor_time() - start;
     expect_no_exception("restitute_solve");
     alarm(0);
-    c->seconds[d->class] += taken;
+    c->tally[d->class].seconds += taken;
+    c->tally[d->class].status[*status < 0 || *status > 2 ? 3 : *status]++;
     const double limit = c->options.time_limit > 0 ? fmax(0.1, c->options.time_limit) : 1;
-    if (!has_ledger) EXPECT(taken <= 2 * limit, "%.2f s", taken);
-    if (!has_ledger && taken > c->slowest) c->slowest = taken, c->slowest_case = current;
-    if (*status < 0)
-        c->refused[d->class]++;
-    else if (*status < 3)
-        c->status[d->class][*status]++;
+    EXPECT(with_ledger || taken <= 2 * limit, "%.2f s", taken);
+    if (!with_ledger) keep_worst(&c->slowest, taken);
     if (*status < 0 || *status == RESTITUTE_TOLERANCE_NOT_REACHED) add_remark(c->remarks, *status, error.message);
     check_result(d, *status, r, error.message);
-    if (has_ledger && *status == RESTITUTE_OK) check_ledger(c, r, &ledger);
-    if (faults > before && faults <= shown_faults) print_case(d);
+    if (with_ledger && *status == RESTITUTE_OK) check_ledger(c, r, &ledger);
     if (*status >= 0 && c->second[k] && current / TOLERANCES % c->every == 0) compare(c, d, k, r);
+    if (faults > before && faults <= shown_faults) print_case(d);
 }
 
 /* Cases of one tolerance again, in one call, by two threads: the same bits. */
 static void check_batch(struct campaign *c, long first, const struct drawn_case *d, const int *status,
                         const restitute_result *results)
 {
+    enum { n = block / TOLERANCES };
+    restitute_options options = c->options;
+    options.threads = 2;
     for (int k = 0; k < TOLERANCES; k++) {
-        restitute_impact impacts[block];
-        restitute_result again[block];
-        int statuses[block], at[block], n = 0;
-        for (int i = 0; i < block; i++)
-            if ((first + i) % TOLERANCES == k && (first + i) % 16 != 3) {
-                restitute_result_init(&again[n]);
-                impacts[n] = d[i].impact, at[n++] = i;
-            }
-        restitute_options options = c->options;
-        options.tolerance = tolerances[k];
-        options.threads = 2;
+        restitute_impact impacts[n];
+        restitute_result again[n];
+        int statuses[n];
+        for (int j = 0; j < n; j++) {
+            restitute_result_init(&again[j]);
+            impacts[j] = d[k + TOLERANCES * j].impact;
+        }
+        options.tolerance = d[k].tolerance;
         alarm(600);
-        restitute_solve_many((size_t)n, impacts, &options, again, statuses, NULL);
+        restitute_solve_many(n, impacts, &options, again, statuses, NULL);
         alarm(0);
         for (int j = 0; j < n; j++) {
-            const restitute_result *r = &results[at[j]];
-            current = first + at[j];
-            EXPECT(statuses[j] == status[at[j]], "status %d, in a batch %d", status[at[j]], statuses[j]);
-            EXPECT(statuses[j] < 0 ||
-                       (again[j].ez == r->ez && again[j].ex == r->ex && again[j].error_ex == r->error_ex),
-                   "ez %.17g ex %.17g, in a batch %.17g %.17g", r->ez, r->ex, again[j].ez, again[j].ex);
+            const int i = k + TOLERANCES * j;
+            const restitute_result *r = &results[i], *b = &again[j];
+            current = first + i;
+            if (current % 16 == 3) continue; /* a ledger rounds otherwise */
+            EXPECT(statuses[j] == status[i], "status %d, in a batch %d", status[i], statuses[j]);
+            EXPECT(statuses[j] < 0 || (b->ez == r->ez && b->ex == r->ex && b->error_ex == r->error_ex),
+                   "ez %.17g ex %.17g, in a batch %.17g %.17g", r->ez, r->ex, b->ez, b->ex);
+            c->batched++;
         }
-        c->batched += n;
     }
 }
 
@@ -249,7 +238,6 @@ static void run(struct campaign *c, long first, long count)
     static struct drawn_case drawn[block];
     static restitute_result results[block];
     int status[block];
-    time_t shown = time(NULL);
     for (long at = first; at < first + count; at += block) {
         const int n = (int)(first + count - at < block ? first + count - at : block);
         for (int i = 0; i < n; i++) {
@@ -261,28 +249,24 @@ static void run(struct campaign *c, long first, long count)
             check_batch(c, at, drawn, status, results);
         for (int i = 0; i < n; i++)
             restitute_material_destroy(drawn[i].material);
-        if (time(NULL) - shown < 60) continue;
-        shown = time(NULL);
-        fprintf(stderr, "%ld of %ld, %ld faults\n", at + n - first, count, faults);
+        if (at / block % 256 == 0) fprintf(stderr, "%ld of %ld, %ld faults\n", at + n - first, count, faults);
     }
 }
 
 static void report(struct campaign *c)
 {
     for (int k = 0; k < CLASSES; k++) {
-        const long *s = c->status[k], n = s[0] + s[1] + s[2] + c->refused[k];
-        const struct agreement *a = &c->agreement[k];
+        const struct tally *t = &c->tally[k];
+        const long *s = t->status, n = s[0] + s[1] + s[2] + s[3];
         if (n == 0) continue;
         printf("%-12s %8ld: OK %ld, NO_REBOUND %ld, TOLERANCE_NOT_REACHED %ld, failed %ld; %.0f us each; compared %ld, "
                "unknown %ld, error > estimate %ld, > 10 estimates %ld, worst %.3g (case %ld)\n",
-               class_name[k], n, s[0], s[1], s[2], c->refused[k], 1e6 * c->seconds[k] / (double)n, a->compared,
-               a->unknown, a->low, a->far, a->worst, a->worst_case);
+               class_name[k], n, s[0], s[1], s[2], s[3], 1e6 * t->seconds / (double)n, t->compared, t->unknown, t->low,
+               t->far, t->error.value, t->error.number);
     }
-    for (int k = 0; k < most_remarks; k++)
-        if (c->remarks[k].count > 0)
-            printf("%8ld times status %d: %s\n", c->remarks[k].count, c->remarks[k].status, c->remarks[k].text);
+    print_remarks(c->remarks);
     printf("slowest %.3f s (case %ld); ledgers %ld, largest residual_z %.2g (case %ld); in batches %ld; faults %ld\n",
-           c->slowest, c->slowest_case, c->ledgers, c->worst_residual, c->residual_case, c->batched, faults);
+           c->slowest.value, c->slowest.number, c->ledgers, c->residual.value, c->residual.number, c->batched, faults);
 }
 
 static restitute_solver *solver_of(const restitute_options *like, const restitute_method *method, double tolerance)
@@ -329,6 +313,5 @@ int main(int argc, char **argv)
         restitute_solver_destroy(c.solver[k]);
         restitute_solver_destroy(c.second[k]);
     }
-    free_remarks(c.remarks);
     return faults > 0;
 }

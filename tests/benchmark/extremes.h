@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "../support/random.h"
+#include "../support/remarks.h"
 
 enum { shown_faults = 20 };
 
@@ -37,13 +38,9 @@ static inline void fault(const char *form, ...)
 
 static void report_signal(int number)
 {
-    char text[64] = "case                     : signal   \n";
-    long n = current;
-    for (int k = 24; k > 4 && (n > 0 || k == 24); k--, n /= 10)
-        text[k] = (char)('0' + n % 10);
-    text[34] = (char)('0' + number / 10), text[35] = (char)('0' + number % 10);
-    if (write(STDOUT_FILENO, text, strlen(text)) < 0) _exit(4);
-    _exit(3);
+    char text[64];
+    const int length = snprintf(text, sizeof text, "case %ld: signal %d\n", current, number);
+    _exit(write(STDOUT_FILENO, text, (size_t)length) < 0 ? 4 : 3);
 }
 
 static inline void watch_signals(void)
@@ -61,6 +58,24 @@ static inline void expect_no_exception(const char *what)
     fault("%s raises%s%s%s", what, raised & FE_INVALID ? " invalid" : "", raised & FE_DIVBYZERO ? " divbyzero" : "",
           raised & FE_OVERFLOW ? " overflow" : "");
     feclearexcept(FE_ALL_EXCEPT);
+}
+
+/* The first message of each form. */
+static inline void print_remarks(const struct remark remarks[most_remarks])
+{
+    for (int k = 0; k < most_remarks && remarks[k].count > 0; k++)
+        printf("%8ld times status %d: %s\n", remarks[k].count, remarks[k].status, remarks[k].text);
+}
+
+/* The largest value, and its case. */
+struct worst {
+    double value;
+    long number;
+};
+
+static inline void keep_worst(struct worst *worst, double value)
+{
+    if (value > worst->value) *worst = (struct worst){value, current};
 }
 
 static inline double processor_time(void)
