@@ -12,8 +12,8 @@ is a temporary or a partial file. The same command, with --resume where there is
 the files of an undisturbed run and nothing beside them. Also every allocation of our libraries
 beneath the Python package fails (memory.py).
 """
+import collections
 import errno
-import json
 import os
 import random
 import re
@@ -23,9 +23,10 @@ import subprocess
 import sys
 import tempfile
 import time
+from pathlib import Path
 
 RESTITUTE, PRELOAD = os.environ["RESTITUTE"], os.environ["PRELOAD"]
-HERE = os.path.dirname(os.path.abspath(__file__))
+PLACE = Path("place")
 BALL = "--material polyisobutylene --radius 0.005 --density 7800 --friction 0.3"
 BUILD = """
 import sys; sys.path.insert(0, sys.argv[1])
@@ -46,55 +47,39 @@ RUNS = {
                "--events e.csv --output h.csv --figure h.png",
 }
 SHORT = ("table by Python", "batch", "fit")
-LEFT = re.compile(r".*(\.restitute-\d+\.tmp|\.partial|\.partial\.json)")
+PARTIAL = r".*(\.partial|\.partial\.json"
+ALL = 10**9  # no call has this number
 OLD = b"of an earlier run\n"
 
 
-class Fault(Exception):
-    """What is wrong after one."""
-
-
-def need(condition, text):
-    if not condition:
-        raise Fault(text)
-
-
-def content(path):
-    """Bytes of a file, without its dates."""
-    with open(path, "rb") as file:
-        return re.sub(rb"/(CreationDate|ModDate) \([^)]*\)|<dc:date>[^<]*", b"", file.read())
-
-
-def files(folder="."):
-    return {name: content(os.path.join(folder, name)) for name in sorted(os.listdir(folder))}
+def files():
+    """Bytes of each file, without its dates."""
+    dates = rb"/(CreationDate|ModDate) \([^)]*\)|<dc:date>[^<]*"
+    return {path.name: re.sub(dates, b"", path.read_bytes()) for path in sorted(PLACE.iterdir())}
 
 
 class Run:
     """A run, and what it gives undisturbed: exit status, files, calls, seconds."""
 
-    def __init__(self, name, words):
-        self.name = name
+    def __init__(self, words):
         self.command = [RESTITUTE, *words.split()] if words else \
             [sys.executable, "-c", BUILD, os.environ["PACKAGE"]]
-        os.makedirs("place", exist_ok=True)
+        PLACE.mkdir(exist_ok=True)
         self.end(self.start())  # once before, for caches
         self.clear(old=False)
-        since = time.monotonic()
-        self.status, _ = self.end(self.start(FAULT_LOG=os.path.abspath("log")))
-        self.seconds = time.monotonic() - since
-        need(self.status in (0, 1), f"exit status {self.status}")
-        with open("log", encoding="utf-8") as file:
-            self.calls = file.read().splitlines()
-        os.remove("log")
-        self.files = files("place")
-        need(self.files and self.calls, "no files or no calls")
+        since, log = time.monotonic(), Path("log").absolute()
+        self.status, _ = self.end(self.start(FAULT_LOG=log))
+        self.seconds, self.files = time.monotonic() - since, files()
+        self.calls = log.read_text().splitlines()
+        log.unlink()
+        assert self.status in (0, 1) and self.files and self.calls, f"exit status {self.status}"
 
     def start(self, **fault):
-        environment = {**os.environ, "LD_PRELOAD": PRELOAD, "LC_ALL": "C.UTF-8",
-                       "FAULT_FOLDER": os.path.abspath("place"), **fault}
-        return subprocess.Popen(self.command, cwd="place", env=environment,
+        fault |= {"LD_PRELOAD": PRELOAD, "LC_ALL": "C.UTF-8", "FAULT_FOLDER": PLACE.absolute()}
+        environment = os.environ | {name: str(value) for name, value in fault.items()}
+        return subprocess.Popen(self.command, cwd=PLACE, env=environment, text=True,
                                 stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                stderr=subprocess.PIPE, text=True)
+                                stderr=subprocess.PIPE)
 
     @staticmethod
     def end(process):
@@ -103,162 +88,139 @@ class Run:
 
     def clear(self, old):
         """Empty the place, or leave only files of an earlier run in it."""
-        for name in os.listdir("place"):
-            os.remove(os.path.join("place", name))
+        shutil.rmtree(PLACE)
+        PLACE.mkdir()
         self.before = dict.fromkeys(self.files, OLD) if old else {}
         for name in self.before:
-            with open(os.path.join("place", name), "wb") as file:
-                file.write(OLD)
+            (PLACE / name).write_bytes(OLD)
 
-    def check(self, allowed=LEFT):
+    def check(self, left=PARTIAL + r"|\.restitute-\d+\.tmp)"):
         """Nothing is lost, nothing half done under a final name."""
-        there = files("place")
+        there = files()
         for name, old in self.before.items():
-            need(there.get(name) in (old, self.files[name]), f"{name} is lost or half written")
-        for name, bytes_ in there.items():
+            assert there.get(name) in (old, self.files[name]), f"{name} is lost or half written"
+        for name, found in there.items():
             if name in self.files:
-                need(bytes_ in (self.files[name], self.before.get(name)), f"{name} is half written")
+                assert found in (self.files[name], self.before.get(name)), f"{name} is half written"
             else:
-                need(allowed.fullmatch(name), f"{name} is left")
+                assert re.fullmatch(left, name), f"{name} is left"
         return there
 
-    def check_again(self):
+    def check_again(self, **fault):
         """Another run mends all."""
-        status, said = self.end(self.start())
-        need(status == self.status, f"then exit status {status}: {said}")
+        status, said = self.end(self.start(**fault))
+        assert status == self.status, f"then exit status {status}: {said}"
         self.check_done()
 
     def check_done(self):
-        there = files("place")
-        need(list(there) == list(self.files), f"then {list(there)}")
-        for name, bytes_ in there.items():
-            need(bytes_ == self.files[name], f"then {name} differs")
+        there = files()
+        differ = [name for name in there | self.files if there.get(name) != self.files.get(name)]
+        assert not differ, f"then {differ} differ"
 
     # -------------------------------------------------------------------------------- the faults
 
-    def killed(self, at):
-        self.clear(old=at % 2)
-        status, said = self.end(self.start(FAULT="kill", FAULT_AT=str(at)))
+    def killed(self, at, after=0):
+        """At a call, or with 0 after so many seconds."""
+        self.clear(random.random() < 0.5)
+        process = self.start(FAULT=-signal.SIGKILL, FAULT_AT=at, FAULT_LAST=at)
+        if after:
+            time.sleep(after)
+            process.kill()
+        status, said = self.end(process)
         # The pieces of a batch depend on the time that rows take: there may be fewer calls.
-        need(status in (-signal.SIGKILL, self.status), f"exit status {status}: {said}")
-        self.check()
-        self.check_again()
-
-    def killed_after(self, seconds, old):
-        self.clear(old)
-        process = self.start()
-        time.sleep(seconds)
-        process.kill()
-        self.end(process)
+        assert status in (-signal.SIGKILL, self.status), f"exit status {status}: {said}"
         self.check()
         self.check_again()
 
     def stopped(self, at):
-        self.clear(old=at % 2)
-        first = self.start(FAULT="stop", FAULT_AT=str(at))
+        self.clear(random.random() < 0.5)
+        first = self.start(FAULT=-signal.SIGSTOP, FAULT_AT=at, FAULT_LAST=at)
         os.waitid(os.P_PID, first.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT)
         second = self.end(self.start())
         self.check()
         first.send_signal(signal.SIGCONT)
         first = self.end(first)
         for status, said in (first, second):
-            need(status == self.status or status == 2 and "another process" in said,
-                 f"exit status {status}: {said}")
-        need(self.status in (first[0], second[0]), f"neither is done: {first[1]} {second[1]}")
+            assert status == self.status or status == 2 and "another process" in said, \
+                f"exit status {status}: {said}"
+        assert self.status in (first[0], second[0]), f"neither is done: {first[1]} {second[1]}"
         self.check_done()
 
-    def refused(self, at, number, on):
-        self.clear(old=at % 2)
-        fault = {"FAULT": str(number), "FAULT_AT": str(at), **({"FAULT_ON": "yes"} if on else {})}
-        self.check_refusal(*self.end(self.start(**fault)), number)
+    def refused(self, at, last, number):
+        self.clear(random.random() < 0.5)
+        process = self.start(FAULT=number, FAULT_AT=at, FAULT_LAST=last)
+        self.check_refusal(*self.end(process), number)
 
     def check_refusal(self, status, said, number):
         """Done, or the message says why not."""
-        there = self.check(re.compile(r".*(\.partial|\.partial\.json)"))
+        there = self.check(PARTIAL + ")")
         if status == self.status:
-            need(all(there.get(name) == self.files[name] for name in self.files), "is not done")
+            assert all(there.get(name) == self.files[name] for name in self.files), "is not done"
         else:
             by_command = self.command[0] == RESTITUTE
-            need(status == (2 if by_command else 1) and os.strerror(number) in said and
-                 not (by_command and "Traceback" in said), f"exit status {status}: {said}")
+            assert status == (2 if by_command else 1) and os.strerror(number) in said and not (
+                by_command and "Traceback" in said), f"exit status {status}: {said}"
         self.check_again()
 
     def short(self):
         self.clear(old=False)
-        status, said = self.end(self.start(FAULT_SHORT="yes"))
-        need(status == self.status, f"exit status {status}: {said}")
-        self.check_done()
+        self.check_again(FAULT_SHORT="yes")
 
     def on_disk(self, options, number):
-        """On a disk of its own; whether it is too small. Then there is room."""
+        """On a disk of its own that is too small, or read-only. Then there is room."""
         self.before = {}
-        subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", "place"], check=True)
+        subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", PLACE], check=True)
         try:
             status, said = self.end(self.start())
-            subprocess.run(["mount", "-o", "remount,rw,size=100m", "place"], check=True)
+            subprocess.run(["mount", "-o", "remount,rw,size=100m", PLACE], check=True)
             self.check_refusal(status, said, number)
         finally:
-            subprocess.run(["umount", "place"], check=True)
-        return status != self.status
+            subprocess.run(["umount", PLACE], check=True)
+        assert status != self.status, "has room enough"
 
 
-def faults_of(run, times, disks, short):
-    """Each fault: its name and what to call. The short form has one call for each kind."""
-    calls = range(1, len(run.calls) + 1)
-    if short:
-        for kind in (run.killed, run.stopped, lambda at: run.refused(at, errno.ENOSPC, True)):
-            at = random.choice(calls)
-            yield f"call {at}", lambda kind=kind, at=at: kind(at)
-        return
-    for at in calls:
-        call = f"call {at}, {run.calls[at - 1]}"
-        yield f"killed at {call}", lambda at=at: run.killed(at)
-        yield f"stopped at {call}", lambda at=at: run.stopped(at)
-        yield f"full from {call}", lambda at=at: run.refused(at, errno.ENOSPC, True)
-        yield f"broken disk at {call}", lambda at=at: run.refused(at, errno.EIO, False)
-    yield "read-only", lambda: run.refused(1, errno.EROFS, True)
+def faults_of(run, times, disks):
+    """Each fault: its name, what to call, and with what."""
+    for at, call in enumerate(run.calls, 1):
+        yield f"killed at call {at}, {call}", run.killed, at
+        yield f"stopped at call {at}, {call}", run.stopped, at
+        yield f"full from call {at}, {call}", run.refused, at, ALL, errno.ENOSPC
+        yield f"broken disk at call {at}, {call}", run.refused, at, at, errno.EIO
+    yield "read-only", run.refused, 1, ALL, errno.EROFS
     yield "short writes", run.short
-    for i in range(times):
+    for _ in range(times):
         after = random.uniform(0, 1.05 * run.seconds)
-        yield f"killed after {after:.4f} s", lambda i=i, after=after: run.killed_after(after, i % 2)
+        yield f"killed after {after:.4f} s", run.killed, 0, after
     if disks:
-        yield "read-only disk", lambda: run.on_disk("ro", errno.EROFS)
+        yield "read-only disk", run.on_disk, "ro", errno.EROFS
         largest = max(map(len, run.files.values()))  # any smaller disk has no room for it
         for size in range(4096, largest, max(4096, largest // 20 // 4096 * 4096)):
-            yield f"disk of {size} bytes", lambda size=size: need(
-                run.on_disk(f"size={size}", errno.ENOSPC), "has room enough")
-
-
-def prepare():
-    random.seed(0)
-    with open("cases.csv", "w", encoding="utf-8") as file:
-        file.write("psi\n")
-        file.writelines(f"{i / 500}\n" for i in range(1500))
-    with open("drops.csv", "w", encoding="utf-8") as file:
-        file.write("speed_m_s,ez\n0.1,0.9\n1,0.75\n5,0.6\n")
+            yield f"disk of {size} bytes", run.on_disk, f"size={size}", errno.ENOSPC
 
 
 def main(words):
-    short, disks = "--short" in words, "--disks" in words
     numbers = [int(word) for word in words if not word.startswith("--")]
     times, seed = (*numbers, *(100, 2017)[len(numbers):])
     failures = 0
     os.environ["MPLCONFIGDIR"] = os.path.abspath("cache")
-    prepare()
-    for name in SHORT if short else RUNS:
+    Path("cases.csv").write_text("psi\n" + "".join(f"{i / 500}\n" for i in range(1500)))
+    Path("drops.csv").write_text("speed_m_s,ez\n0.1,0.9\n1,0.75\n5,0.6\n")
+    for name in SHORT if "--short" in words else RUNS:
         random.seed(seed)
-        done, run = {}, Run(name, RUNS[name])
-        for what, disturb in faults_of(run, times, disks, short):
-            kind = what.split()[0]
-            done[kind] = done.get(kind, 0) + 1
+        run, done = Run(RUNS[name]), collections.Counter()
+        faults = faults_of(run, times, "--disks" in words)
+        if "--short" in words:  # one of each kind that is at a call
+            faults = list(faults_of(run, 0, False))
+            faults = [random.choice([fault for fault in faults if fault[0].startswith(kind)])
+                      for kind in ("killed", "stopped", "full")]
+        for what, disturb, *given in faults:
+            done[what.split()[0]] += 1
             try:
-                disturb()
-            except Fault as fault:
+                disturb(*given)
+            except AssertionError as fault:
                 failures += 1
                 print(f"FAILED: {name}, {what}: {fault}", flush=True)
-                shutil.rmtree("place")
-                os.mkdir("place")
-        print(f"{name}: {json.dumps(done)}", flush=True)
+        print(f"{name}: {dict(done)}", flush=True)
     return failures
 
 

@@ -1,9 +1,7 @@
 /* Faults on demand, for LD_PRELOAD. Calls that make, change, rename or remove a file beneath
  * FAULT_FOLDER, an absolute path, are counted, and one line for each goes into the file FAULT_LOG.
- * At number FAULT_AT:
- *     FAULT=kill   the process ends as by kill -9, before the call
- *     FAULT=stop   it stops, until SIGCONT
- *     FAULT=N      the call fails with errno N; FAULT_ON=yes: and all after it but removals
+ * From number FAULT_AT to FAULT_LAST, FAULT=N: the call fails with errno N, unless it removes; with
+ * a negative N the process gets the signal -N, before the call.
  * FAULT_SHORT=yes: writes take half of what they are given. And fault_memory(n, for_good), by
  * ctypes: allocation n of our libraries fails, with for_good all after it; 0: none.
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -47,28 +45,29 @@ static int is_open_beneath(int descriptor)
     return *path == '/' && is_beneath(path);
 }
 
+static long number_in(const char *variable)
+{
+    const char *text = getenv(variable);
+    return text ? atol(text) : 0;
+}
+
 /* Whether this call fails; `removes` if it needs no room. */
 static int fails(const char *call, const char *path, int removes)
 {
     static long count;
-    const char *at = getenv("FAULT_AT"), *fault = getenv("FAULT"), *log = getenv("FAULT_LOG");
-    static int (*really_open)(const char *, int, ...);
-    const long number = ++count, failing = at ? atol(at) : 0;
+    const char *log = getenv("FAULT_LOG");
+    const long number = ++count, fault = number_in("FAULT");
     if (log) {
-        if (!really_open) *(void **)&really_open = dlsym(RTLD_NEXT, "open");
-        const int file = really_open(log, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+        const int file = open(log, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
         dprintf(file, "%s %s\n", call, path);
         close(file);
     }
-    if (!fault || number < failing || !failing) return 0;
-    if (number == failing && (!strcmp(fault, "kill") || !strcmp(fault, "stop")))
-        raise(*fault == 'k' ? SIGKILL : SIGSTOP);
-    if (!atoi(fault) || removes || (number > failing && !getenv("FAULT_ON"))) return 0;
-    errno = atoi(fault);
+    if (number < number_in("FAULT_AT") || number > number_in("FAULT_LAST")) return 0;
+    if (fault < 0) raise((int)-fault);
+    if (fault < 0 || removes) return 0;
+    errno = (int)fault;
     return 1;
 }
-
-#define REAL(name) (*(void **)&real = dlsym(RTLD_NEXT, #name))
 
 #define OPENER(name)                                                                                                   \
     SEEN_BY_LIBRARIES int name(const char *path, int flags, ...)                                                       \
@@ -78,33 +77,25 @@ static int fails(const char *call, const char *path, int removes)
         va_start(more, flags);                                                                                         \
         const mode_t mode = flags & (O_CREAT | __O_TMPFILE) ? va_arg(more, mode_t) : 0;                                \
         va_end(more);                                                                                                  \
-        if (!real) REAL(name);                                                                                         \
+        if (!real) *(void **)&real = dlsym(RTLD_NEXT, #name);                                                          \
         const int writes = (flags & O_ACCMODE) != O_RDONLY || flags & O_CREAT;                                         \
         return writes && is_beneath(path) && fails("open", path, 0) ? -1 : real(path, flags, mode);                    \
     }
 OPENER(open)
 OPENER(open64)
 
-#define ON_DESCRIPTOR(name, type, declared, given)                                                                     \
+#define INSTEAD_OF(type, name, declared, given, fault)                                                                 \
     SEEN_BY_LIBRARIES type name declared                                                                               \
     {                                                                                                                  \
         static type(*real) declared;                                                                                   \
-        if (!real) REAL(name);                                                                                         \
-        return is_open_beneath(file) && fails(#name, "", 0) ? -1 : real given;                                         \
+        if (!real) *(void **)&real = dlsym(RTLD_NEXT, #name);                                                          \
+        return (fault) ? -1 : real given;                                                                              \
     }
-ON_DESCRIPTOR(fsync, int, (int file), (file))
-ON_DESCRIPTOR(ftruncate, int, (int file, off_t size), (file, size))
-ON_DESCRIPTOR(ftruncate64, int, (int file, off_t size), (file, size))
-ON_DESCRIPTOR(write, ssize_t, (int file, const void *bytes, size_t size),
-              (file, bytes, getenv("FAULT_SHORT") ? (size + 1) / 2 : size))
-
-#define ON_PATH(name, declared, given, removes)                                                                        \
-    SEEN_BY_LIBRARIES int name declared                                                                                \
-    {                                                                                                                  \
-        static int(*real) declared;                                                                                    \
-        if (!real) REAL(name);                                                                                         \
-        return is_beneath(path) && fails(#name, path, removes) ? -1 : real given;                                      \
-    }
-ON_PATH(rename, (const char *path, const char *to), (path, to), 0)
-ON_PATH(mkdir, (const char *path, mode_t mode), (path, mode), 0)
-ON_PATH(unlink, (const char *path), (path), 1)
+INSTEAD_OF(int, fsync, (int file), (file), is_open_beneath(file) && fails("fsync", "", 0))
+INSTEAD_OF(int, ftruncate, (int file, off_t size), (file, size), is_open_beneath(file) && fails("ftruncate", "", 0))
+INSTEAD_OF(int, ftruncate64, (int file, off_t size), (file, size), is_open_beneath(file) && fails("ftruncate", "", 0))
+INSTEAD_OF(ssize_t, write, (int file, const void *bytes, size_t size),
+           (file, bytes, getenv("FAULT_SHORT") ? (size + 1) / 2 : size), is_open_beneath(file) && fails("write", "", 0))
+INSTEAD_OF(int, rename, (const char *path, const char *to), (path, to), is_beneath(path) && fails("rename", path, 0))
+INSTEAD_OF(int, mkdir, (const char *path, mode_t mode), (path, mode), is_beneath(path) && fails("mkdir", path, 0))
+INSTEAD_OF(int, unlink, (const char *path), (path), is_beneath(path) && fails("unlink", path, 1))
