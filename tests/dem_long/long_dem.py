@@ -10,6 +10,7 @@ before it; a second call goes on where the first was stopped. --report looks at 
 """
 import argparse
 import filecmp
+import itertools
 import math
 import re
 import subprocess
@@ -19,7 +20,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 PARTS = 11
 EVERY, PERIOD = 1000, 60000
-COLUMNS = "step atoms kinetic mechanical stored friction dashpots input steps contacts"
+COLUMNS = "step atoms kinetic mechanical stored friction dashpots input steps contacts".split()
 # Of the energy lost or brought in since the process began: the trapezoidal rule of the contacts'
 # ledger, as in examples/lammps/tests/test_energy.py.
 LEDGER = 0.01
@@ -36,92 +37,76 @@ def windows(steps):
 
 def command(args, part):
     steps = args.steps // PARTS
+    (begin1, periods1), (begin2, periods2) = windows(steps)
     values = {"plugin": args.built / "restituteplugin.so", "part": part, "steps": steps,
               "bead": HERE.parents[1] / "examples/lammps/bead.json", "beads": args.beads,
-              "every": EVERY, "period": PERIOD, "overlap": steps // 20 // EVERY * EVERY}
-    for k, (begin, periods) in enumerate(windows(steps), 1):
-        values |= {f"begin{k}": begin, f"periods{k}": periods}
+              "every": EVERY, "period": PERIOD, "overlap": steps // 20 // EVERY * EVERY,
+              "begin1": begin1, "periods1": periods1, "begin2": begin2, "periods2": periods2}
     venv = args.built / "venv/bin"
     words = [venv / "mpiexec", "-n", args.ranks, venv / "lmp", "-in", HERE / "in.long", "-nocite",
              "-screen", "none", "-log", f"part.{part}.log"]
-    for name, value in values.items():
-        words += ["-var", name, value]
-    return [str(word) for word in words]
+    return list(map(str, itertools.chain(words, *(("-var", *pair) for pair in values.items()))))
 
 
-def rows_of(directory, part):
-    """Lines of the log by step; a step that two runs print counts once."""
+def report_part(directory, part, beads, shaken):
+    """Prints what a part did; its last step, and what is wrong."""
     text = (directory / f"part.{part}.log").read_text()
-    found = {}
-    for line in text.splitlines():
-        words = line.split()
-        if len(words) == len(COLUMNS.split()) and re.fullmatch(r"\d+", words[0]):
-            row = dict(zip(COLUMNS.split(), map(float, words)))
-            found.setdefault(int(row["step"]), row)
-    return list(found.values()), text
-
-
-def report(args):
-    steps, beads = args.steps // PARTS, args.beads
-    shaken = [(begin, begin + PERIOD * periods) for begin, periods in windows(steps)]
-    faults, last = [], None
-    for part in range(1, PARTS + 1):
-        if not (args.directory / f"part.{part}.log").exists():
-            break
-        rows, text = rows_of(args.directory, part)
-        rows = [row for row in rows if row["atoms"] == beads]
-        if len(rows) < 2:
-            continue
-        whole, again = (args.directory / f"{name}.{part - 1}.restart"
-                        for name in ("whole", "again"))
-        same = filecmp.cmp(whole, again, shallow=False) if again.exists() else None
-        first, moved, worst, gain, scale = rows[0], 0.0, 0.0, -math.inf, 0.0
-        for before, row in zip(rows, rows[1:]):
-            moved += row["input"]
-            lost = row["friction"] + row["dashpots"] - first["friction"] - first["dashpots"]
-            scale = max(scale, lost, abs(moved))
-            has = row["mechanical"] + row["stored"]
-            worst = max(worst, abs(has + lost - moved - first["mechanical"] - first["stored"]))
-            if not any(begin < row["step"] and before["step"] < end for begin, end in shaken):
-                gain = max(gain, has - before["mechanical"] - before["stored"])
-            if row["friction"] < before["friction"] or row["dashpots"] < before["dashpots"]:
-                faults.append(f"part {part}, step {row['step']:.0f}: a loss falls")
-        memory = re.findall(r"Maximum resident set size:? *([\d.]+)", text)
-        last = rows[-1]
-        print(f"part {part}: to step {last['step']:.0f}, {last['contacts']:.0f} new contacts, "
-              f"restarted with the same bits: {same}, lost {scale:.3e} J, "
-              f"ledger off by {worst:.1e} J, largest change in 1000 steps at rest {gain:.1e} J, "
-              f"kinetic {last['kinetic']:.1e} J, memory {memory} MB")
-        if same is False:
-            faults.append(f"part {part}: the restarted process is not the one that went on")
-        if gain > ROUNDING * last["mechanical"]:
-            faults.append(f"part {part}: energy is created at rest, {gain:.1e} J")
-        if worst > LEDGER * scale + 1e-12 * last["mechanical"]:
-            faults.append(f"part {part}: the ledger does not close")
-    print(f"{last['step'] if last else 0:.0f} steps;", "; ".join(faults) or "no fault")
-    return 1 if faults else 0
+    found = {}  # by step: one that two runs print counts once
+    for words in map(str.split, text.splitlines()):
+        if len(words) == len(COLUMNS) and words[0].isdigit() and int(words[1]) == beads:
+            found.setdefault(int(words[0]), dict(zip(COLUMNS, map(float, words))))
+    rows, faults = list(found.values()), []
+    if len(rows) < 2:
+        return 0, faults
+    first, last = rows[0], rows[-1]
+    moved, worst, gain, scale = 0.0, 0.0, -math.inf, 0.0
+    for before, row in zip(rows, rows[1:]):
+        moved += row["input"]
+        lost = row["friction"] + row["dashpots"] - first["friction"] - first["dashpots"]
+        scale = max(scale, lost, abs(moved))
+        has = row["mechanical"] + row["stored"]
+        worst = max(worst, abs(has + lost - moved - first["mechanical"] - first["stored"]))
+        if not any(begin < row["step"] and before["step"] < end for begin, end in shaken):
+            gain = max(gain, has - before["mechanical"] - before["stored"])
+        if row["friction"] < before["friction"] or row["dashpots"] < before["dashpots"]:
+            faults.append(f"part {part}, step {row['step']:.0f}: a loss falls")
+    whole, again = (directory / f"{name}.{part - 1}.restart" for name in ("whole", "again"))
+    same = filecmp.cmp(whole, again, shallow=False) if again.exists() else None
+    memory = re.findall(r"Maximum resident set size:? *([\d.]+)", text)
+    print(f"part {part}: to step {last['step']:.0f}, {last['contacts']:.0f} new contacts, "
+          f"restarted with the same bits: {same}, lost {scale:.3e} J, "
+          f"ledger off by {worst:.1e} J, largest change in 1000 steps at rest {gain:.1e} J, "
+          f"kinetic {last['kinetic']:.1e} J, memory {memory} MB")
+    if same is False:
+        faults.append(f"part {part}: the restarted process is not the one that went on")
+    if gain > ROUNDING * last["mechanical"]:
+        faults.append(f"part {part}: energy is created at rest, {gain:.1e} J")
+    if worst > LEDGER * scale + 1e-12 * last["mechanical"]:
+        faults.append(f"part {part}: the ledger does not close")
+    return last["step"], faults
 
 
 def main():
     raw = argparse.RawTextHelpFormatter
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=raw)
-    parser.add_argument("built", type=Path)
+    parser.add_argument("built", type=lambda text: Path(text).resolve())
     parser.add_argument("directory", type=Path)
     for name, value in ("steps", 10010000), ("beads", 500), ("ranks", 1):
         parser.add_argument(f"--{name}", type=int, default=value)
     parser.add_argument("--report", action="store_true")
     args = parser.parse_args()
-    args.built = args.built.resolve()
     args.directory.mkdir(parents=True, exist_ok=True)
+    shaken = [(begin, begin + PERIOD * periods) for begin, periods in windows(args.steps // PARTS)]
+    step, faults = 0, []
     for part in range(1, PARTS + 1):
-        if args.report or (args.directory / f"whole.{part}.restart").exists():
-            continue
-        done = subprocess.run(command(args, part), cwd=args.directory, capture_output=True,
-                              text=True)
-        if done.returncode:
-            sys.exit(f"part {part}: {done.stdout[-2000:]}{done.stderr[-2000:]}")
-    sys.exit(report(args))
+        if not args.report and not (args.directory / f"whole.{part}.restart").exists():
+            subprocess.run(command(args, part), cwd=args.directory, check=True)
+        if (args.directory / f"part.{part}.log").exists():
+            step, found = report_part(args.directory, part, args.beads, shaken)
+            faults += found
+    print(f"{step:.0f} steps;", "; ".join(faults) or "no fault")
+    return bool(faults)
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())
