@@ -5,7 +5,7 @@ many of each (default 40, always the same)."""
 
 import os
 import warnings
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 import pytest
@@ -17,25 +17,27 @@ from restitute.command.options import Refusal
 hypothesis = pytest.importorskip("hypothesis", reason="no hypothesis (Debian: python3-hypothesis)")
 from hypothesis import HealthCheck, given, settings  # noqa: E402
 from hypothesis import strategies as st  # noqa: E402
+from hypothesis.extra import numpy as npst  # noqa: E402
 
 fuzz = settings(max_examples=int(os.environ.get("FUZZ_EXAMPLES", 40)), deadline=None,
                 derandomize="FUZZ_EXAMPLES" not in os.environ, database=None,
                 suppress_health_check=list(HealthCheck))
 RUBBER = restitute.Material.standard_solid(1e6, 3e6, 300.0, density=1200, name="rubber")
 SHAPES = ((), (0,), (1,), (3,), (2, 3), (2, 1), (3, 2, 1))
+ROWS = ((), (3,), (6,), (2, 2))
 TYPES = ("f8", ">f8", "f4", "f2", "g", "i1", "i8", "u8", "bool", "O", "c16", "S3", "U3", "m8[s]")
+DOCUMENTED = (restitute.ModelLimitWarning, restitute.ToleranceWarning, restitute.UnitWarning)
 QUICK = {"method": "sync", "tolerance": 0.05, "max_work": 0.01}
 
 
 @st.composite
 def arrays(draw, low, high, shapes=SHAPES):
     """An array, mostly of numbers in [low, high], in any place and order of memory."""
-    shape = draw(st.sampled_from(shapes))
     usual = st.floats(np.log(low), np.log(high)).map(np.exp)
     odd = st.one_of(st.floats(), st.sampled_from([low, high, -low, 0.0, 1e300, np.nan, np.inf]))
     one = usual if draw(st.integers(0, 2)) else st.one_of(usual, usual, odd)
-    count = int(np.prod(shape))
-    values = np.array(draw(st.lists(one, min_size=count, max_size=count))).reshape(shape)
+    shape = draw(st.sampled_from(shapes))
+    values = draw(npst.arrays("f8", shape, elements=one, fill=st.nothing()))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         values = values.astype(draw(st.sampled_from(TYPES)) if draw(st.booleans()) else "f8")
@@ -52,61 +54,57 @@ def arrays(draw, low, high, shapes=SHAPES):
     return values.tolist() if layout == "list" else values
 
 
-def outcome(call, *given):
+def outcome(call, given):
     """What a call returns, or the type and the text of the exception. The warnings that the
     package documents are no matter; those of NumPy are errors (pyproject.toml)."""
     with warnings.catch_warnings():
-        for category in (restitute.ModelLimitWarning, restitute.ToleranceWarning):
+        for category in DOCUMENTED:
             warnings.simplefilter("ignore", category)
         try:
-            return call(*given)
+            return tuple(call(**given))
         except restitute.Error as problem:
             return type(problem), str(problem)
 
 
-def check(call, *given):
+def check(call, **given):
     """`call` of arrays gives what it gives of contiguous float64 copies; None if it is refused."""
-    kept = [np.array(one) for one in given]
-    found = outcome(call, *given)
-    for before, one in zip(kept, given):  # inputs stay
-        assert repr(before.tolist()) == repr(np.asarray(one).tolist())
+    kept = {name: np.array(one) for name, one in given.items()}
+    found = outcome(call, given)
+    for name, one in kept.items():  # inputs stay
+        assert repr(one.tolist()) == repr(np.asarray(given[name]).tolist())
     refused = isinstance(found[0], type)
-    if all(one.dtype.kind in "iuf" for one in kept):
+    if all(one.dtype.kind in "iuf" for one in kept.values()):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            copies = [np.ascontiguousarray(one).astype("f8").reshape(one.shape) for one in kept]
-        expected = outcome(call, *copies)
-        assert found == expected if refused else isinstance(expected[0], type) is False
+            copies = {name: np.ascontiguousarray(one).astype("f8").reshape(one.shape)
+                      for name, one in kept.items()}
+        expected = outcome(call, copies)
+        assert found == expected if refused else not isinstance(expected[0], type)
         for one, other in zip(found, () if refused else expected):
             assert np.shape(one) == np.shape(other) and np.array_equal(one, other, equal_nan=True)
     return None if refused else found
 
 
-def check_pairs(call, *given):
-    found = check(call, *given)
+def check_pairs(call, **given):
+    found = check(call, **given)
     if found is not None:
         ez, ex = found
-        assert np.shape(ez) == np.shape(ex) == np.broadcast_shapes(*map(np.shape, given))
+        assert np.shape(ez) == np.shape(ex) == np.broadcast_shapes(*map(np.shape, given.values()))
         assert np.all((0 <= ez) & (ez <= 1) & (abs(ex) <= 1) | np.isnan(ez) & np.isnan(ex))
 
 
-def columns(pairs):
-    return pairs.ez, pairs.ex
+@fuzz
+@given(on_error=st.sampled_from(("raise", "nan")), psi=arrays(1e-2, 10), delta1=arrays(0.1, 10),
+       gamma=arrays(0.1, 10))
+def test_pair(on_error, **numbers):
+    check_pairs(partial(restitute.pair, on_error=on_error, **QUICK), **numbers)
 
 
 @fuzz
-@given(arrays(1e-2, 10), arrays(0.1, 10), arrays(0.1, 10), st.sampled_from(("raise", "nan")))
-def test_pair(psi, delta1, gamma, on_error):
-    check_pairs(lambda psi, delta1, gamma: columns(restitute.pair(
-        psi=psi, delta1=delta1, gamma=gamma, on_error=on_error, **QUICK)), psi, delta1, gamma)
-
-
-@fuzz
-@given(arrays(1e-3, 0.1), arrays(1e-3, 10), arrays(1e-2, 80), arrays(0.01, 2))
-def test_scene(radius, speed, angle, friction):
-    check_pairs(lambda radius, speed, angle, friction: columns(restitute.pair(
-        RUBBER, radius=radius, speed=speed, angle=angle, friction=friction, density=1100,
-        **QUICK)), radius, speed, angle, friction)
+@given(radius=arrays(1e-3, 0.1), speed=arrays(1e-3, 10), angle=arrays(1e-2, 80),
+       friction=arrays(0.01, 2))
+def test_scene(**scene):
+    check_pairs(partial(restitute.pair, RUBBER, density=1100, **QUICK), **scene)
 
 
 @lru_cache
@@ -117,55 +115,55 @@ def the_table():
 
 @pytest.mark.component("table")
 @fuzz
-@given(arrays(1e-4, 10), arrays(1e-4, 10))
-def test_table(normal, sliding):
-    check_pairs(lambda *speeds: tuple(the_table().pair(*speeds)), normal, sliding)
+@given(normal_speed=arrays(1e-4, 10), sliding_speed=arrays(1e-4, 10))
+def test_table(**speeds):
+    check_pairs(the_table().pair, **speeds)
 
 
 @fuzz
-@given(arrays(1e-9, 1e9), arrays(1e-2, 1e12), arrays(1e-9, 1e9))
-def test_material(tau, modulus, time):
+@given(tau=arrays(1e-9, 1e9), modulus=arrays(1e-2, 1e12), time=arrays(1e-9, 1e9))
+def test_material(**given):
     def call(tau, modulus, time):
         made = restitute.Material.prony(tau, modulus, 1e6)
         return [made.relaxation_modulus(time), made.storage_modulus(time), made.loss_modulus(time),
                 made.shifted(10).series.relaxation_time]
 
-    for one in (check(call, tau, modulus, time) or ())[:3]:
-        assert np.shape(one) == np.shape(time) and np.all(np.isfinite(one))
+    for one in (check(call, **given) or ())[:3]:
+        assert np.shape(one) == np.shape(given["time"]) and np.all(np.isfinite(one))
 
 
 @pytest.mark.component("contact")
 @fuzz
-@given(arrays(1e-9, 1e-5, ((), (1,), (2,))), arrays(1e-4, 1, ((), (3,), (2, 3), (2,))),
-       arrays(1e-3, 1e-2, ((), (2,))), st.sampled_from((1e-7, 1e-4, 0, -1, np.nan, 1e300, "1")))
-def test_contact_step(overlap, velocity, radius, step):
+@given(step=st.sampled_from((1e-7, 1e-4, 0, -1, np.nan, 1e300, "1")),
+       overlap=arrays(1e-9, 1e-5, ((), (1,), (2,))),
+       velocity=arrays(1e-4, 1, ((), (3,), (2, 3), (2,))), radius=arrays(1e-3, 1e-2, ((), (2,))))
+def test_contact_step(step, **motion):
     law = restitute.ContactLaw(RUBBER)
 
-    def call(overlap, velocity, radius):
+    def call(**motion):
         states = law.states(2)
-        force = law.step(states, step, overlap=overlap, velocity=velocity, radius=radius,
-                         friction=0.3)
+        force = law.step(states, step, friction=0.3, **motion)
         assert np.all(force.normal >= 0) and np.all(np.isfinite(force.tangential))
         return force.normal, force.tangential, states
 
-    check(call, overlap, velocity, radius)
+    check(call, **motion)
 
 
 @pytest.mark.component("fit")
 @fuzz
-@given(*(arrays(low, high, ((), (3,), (6,), (2, 2))) for low, high in (
-    (1e-3, 1e3), (1e5, 1e9), (1e5, 1e9))))
-def test_fit_dma(frequency, storage, loss):
-    check(lambda *rows: restitute.fit_dma(*rows).material.series, frequency, storage, loss)
+@given(frequency=arrays(1e-3, 1e3, ROWS), storage=arrays(1e5, 1e9, ROWS),
+       loss=arrays(1e5, 1e9, ROWS))
+def test_fit_dma(**curve):
+    check(lambda **curve: restitute.fit_dma(**curve).material.series, **curve)
 
 
 @pytest.mark.component("fit")
 @settings(fuzz, max_examples=max(10, fuzz.max_examples // 4))
-@given(arrays(0.1, 1, ((3,), (2, 2), ())), arrays(0.1, 2, ((3,), (2, 2), ())))
-def test_fit_drop_test(ez, speed):
-    check(lambda ez, speed: restitute.fit_drop_test(
-        ez=ez, speed=speed, radius=0.01, mass=0.01, model="kelvin_voigt", starts=1,
-        known={"modulus1": 1e7}).material.series, ez, speed)
+@given(ez=arrays(0.1, 1, ((3,), (2, 2), ())), speed=arrays(0.1, 2, ((3,), (2, 2), ())))
+def test_fit_drop_test(**drops):
+    check(lambda **drops: restitute.fit_drop_test(
+        **drops, radius=0.01, mass=0.01, model="kelvin_voigt", starts=1,
+        known={"modulus1": 1e7}).material.series, **drops)
 
 
 @pytest.mark.component("files")
