@@ -10,7 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "../support/random.h"
@@ -76,13 +75,6 @@ struct worst {
 static inline void keep_worst(struct worst *worst, double value)
 {
     if (value > worst->value) *worst = (struct worst){value, current};
-}
-
-static inline double processor_time(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 /* The random numbers of a case: the same whatever was run before. */
