@@ -3,10 +3,10 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _GNU_SOURCE
 
-#include "../support/failing_allocator.h"
+#include "../support/outputs.h"
 #include "../support/solve.h"
 
-enum { terms = 12, samples = 20, cases = 3 };
+enum { terms = 12, cases = 3 };
 
 static restitute_material *rubber, *glue; /* live for the whole program */
 static restitute_solver *solver;
@@ -84,58 +84,6 @@ static int solver_create(struct given *given)
     return status;
 }
 
-/* All outputs of a call, each at first as its init function leaves it. */
-struct outputs {
-    restitute_result result;
-    restitute_ledger ledger;
-    restitute_history history;
-    double array[8][samples];
-};
-
-static void prepare(struct outputs *o)
-{
-    memset(o, 0, sizeof *o); /* the padding too */
-    restitute_result_init(&o->result);
-    restitute_ledger_init(&o->ledger);
-    restitute_history_init(&o->history);
-    o->history.capacity = samples;
-    double **arrays[] = {&o->history.time,
-                         &o->history.indentation,
-                         &o->history.contact_radius,
-                         &o->history.stick_radius,
-                         &o->history.normal_force,
-                         &o->history.tangential_force,
-                         &o->history.normal_velocity,
-                         &o->history.tangential_velocity};
-    for (int i = 0; i < 8; i++)
-        *arrays[i] = o->array[i];
-}
-
-static int give_outputs(int status, const struct outputs *o, const struct outputs *fresh, struct given *given)
-{
-    CHECK(status >= 0 || memcmp(o, fresh, sizeof *o) == 0, "outputs touched");
-    if (status < 0) return status;
-    const restitute_result *r = &o->result;
-    const double numbers[] = {r->ez,
-                              r->ex,
-                              r->error_ez,
-                              r->error_ex,
-                              r->contact_time,
-                              r->max_normal_force,
-                              (double)r->steps,
-                              (double)r->terms_merged,
-                              o->ledger.viscous_z,
-                              o->ledger.friction_x,
-                              o->ledger.residual_x,
-                              (double)o->history.count};
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        give(given, numbers[i]);
-    for (int i = 0; i < 8; i++)
-        for (size_t k = 0; k < o->history.count; k++)
-            give(given, o->array[i][k]);
-    return status;
-}
-
 /* What the solver solves: a scene on rubber, sticking or slipping at first, or a dimensionless
  * impact. */
 static restitute_scene scene;
@@ -145,9 +93,7 @@ static int solve_scene_once(struct given *given)
 {
     struct outputs o, fresh;
     int status;
-    prepare(&o);
-    memcpy(&fresh, &o, sizeof o);
-    memcpy(&fresh.history, &o.history, sizeof o.history);
+    prepare(&o, &fresh);
     ARMED(status, restitute_solve_scene(solver, &scene, &o.result, all_outputs ? &o.ledger : NULL,
                                         all_outputs ? &o.history : NULL, &error));
     return give_outputs(status, &o, &fresh, given);
@@ -158,8 +104,7 @@ static int solve_impact_once(struct given *given)
     struct outputs o, fresh;
     int status;
     const restitute_impact impact = impact_of(7.0 / 6, 0.7, 1, 1);
-    prepare(&o);
-    memcpy(&fresh, &o, sizeof o);
+    prepare(&o, &fresh);
     ARMED(status, restitute_solve(solver, &impact, &o.result, all_outputs ? &o.ledger : NULL,
                                   all_outputs ? &o.history : NULL, &error));
     return give_outputs(status, &o, &fresh, given);
@@ -194,8 +139,7 @@ static int plan_solve(struct given *given)
 {
     struct outputs o, fresh;
     int status;
-    prepare(&o);
-    memcpy(&fresh, &o, sizeof o);
+    prepare(&o, &fresh);
     ARMED(status, restitute_plan_solve(plan, 0.6, &o.result, all_outputs ? &o.ledger : NULL,
                                        all_outputs ? &o.history : NULL, &error));
     return give_outputs(status, &o, &fresh, given);

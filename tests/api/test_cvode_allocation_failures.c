@@ -4,11 +4,11 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _GNU_SOURCE
 
-#include "../support/failing_allocator.h"
+#include "../support/outputs.h"
 
 #include "../support/cvode.h"
 
-enum { samples = 20, events = 30 };
+enum { events = 30 };
 
 static struct recording recording;
 static restitute_impact impact;
@@ -25,42 +25,23 @@ static void destroy(void)
     end_recording(&recording);
 }
 
-struct outputs {
-    restitute_result result;
-    restitute_ledger ledger;
-    restitute_history history;
-    restitute_cvode_events events;
-    restitute_cvode_event event[events];
-    double force[samples];
-};
-
 static int solve(struct given *given)
 {
-    static struct outputs o, fresh;
+    struct outputs o, fresh;
+    restitute_cvode_event event[events] = {{0}};
+    restitute_cvode_events seen;
     int status;
-    memset(&o, 0, sizeof o); /* the padding too */
-    restitute_result_init(&o.result);
-    restitute_ledger_init(&o.ledger);
-    restitute_history_init(&o.history);
-    restitute_cvode_events_init(&o.events);
-    o.history.capacity = samples;
-    o.history.tangential_force = o.force;
-    o.events.capacity = events;
-    o.events.event = o.event;
-    memcpy(&fresh, &o, sizeof o);
+    prepare(&o, &fresh);
     ARMED(status,
           restitute_solve(recording.solver, &impact, &o.result, keeps_ledger ? &o.ledger : NULL, &o.history, &error));
-    CHECK(status >= 0 || memcmp(&o, &fresh, sizeof o) == 0, "outputs touched");
-    if (status < 0) return status;
-    CHECK(restitute_cvode_recorder_events(recording.recorder, &o.events, &error) == RESTITUTE_OK, "%s", error.message);
-    give(given, o.result.ez);
-    give(given, o.result.ex);
-    give(given, o.ledger.friction_x);
-    give(given, (double)o.events.count);
-    for (int i = 0; i < samples; i++)
-        give(given, o.force[i]);
+    if (give_outputs(status, &o, &fresh, given) < 0) return status;
+    restitute_cvode_events_init(&seen);
+    seen.capacity = events;
+    seen.event = event;
+    CHECK(restitute_cvode_recorder_events(recording.recorder, &seen, &error) == RESTITUTE_OK, "%s", error.message);
+    give(given, (double)seen.count);
     for (int i = 0; i < events; i++)
-        give(given, o.event[i].time);
+        give(given, event[i].time);
     return status;
 }
 
