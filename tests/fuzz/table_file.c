@@ -4,6 +4,7 @@
 #include <restitute/table_files.h>
 
 #include "../support/checksum.h"
+#include "../support/table.h"
 #include "fuzz.h"
 
 enum { block = 512, most = 1 << 16 };
@@ -14,20 +15,8 @@ static size_t good_size;
 static void make_good_file(void)
 {
     restitute_material *material;
-    restitute_scene scene;
-    restitute_table_options options;
-    restitute_table *table;
-    restitute_scene_init(&scene);
-    restitute_table_options_init(&options);
-    CALL(restitute_material_standard_solid, 1e6, 1e6, 300, 0.5, &material);
-    scene.material = material;
-    scene.radius1 = 0.005;
-    scene.mass1 = 0.004;
-    scene.friction = 0.3;
-    options.speed[0] = 0.1;
-    options.speed[1] = 0.2;
-    options.tolerance = 0.05;
-    REQUIRE(CALL(restitute_table_build, &scene, &options, &table) >= 0, "%s", fuzz_error.message);
+    const restitute_scene scene = ball_on(1, &material);
+    restitute_table *table = table_of(&scene, 0.1, 0.2, 0.05);
     REQUIRE(CALL_FLAGS(restitute_table_write, table, "fuzz.h5") == 0, "%s", fuzz_error.message);
     FILE *file = fopen("fuzz.h5", "rb");
     good_size = file ? fread(good, 1, most, file) : 0;
@@ -59,7 +48,7 @@ static size_t make_file(struct bytes *b, uint8_t *file)
     return size;
 }
 
-static void look_up(const restitute_table *table, struct bytes *b)
+static void look_up_any(const restitute_table *table, struct bytes *b)
 {
     enum { n = 3 };
     double normal[n], sliding[n], ez[n] = {7, 7, 7}, ex[n] = {7, 7, 7}, one[2];
@@ -104,7 +93,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     put_file("fuzz.h5", file, size);
     const int status = CALL(restitute_table_read, "fuzz.h5", &table);
     REQUIRE((status < 0) == !table, "status %d", status);
-    if (table) look_up(table, &b);
+    if (table) look_up_any(table, &b);
     restitute_table_destroy(table);
     return 0;
 }
