@@ -250,7 +250,7 @@ function numbers(box, table, state) {
   ];
   const words = now.passed.map((key) => WORDS[key]).join(". ");
   box.replaceChildren(element("table", {}, element("tbody", {}, ...rows)),
-    element("p", { class: "impact-words" }, words ? `Beyond the limits: ${words}.` : "Within the limits."));
+    element("p", { class: "impact-words" }, words ? `Beyond the limits: ${words}.` : "No limit of this table is passed."));
 }
 
 function start(root, table) {

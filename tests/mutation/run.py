@@ -23,11 +23,14 @@ from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[2]
 
-# Room: its files, and the tests that are there for it.
+# Room: its files, and the tests that are there for it, without those that take minutes.
 ROOMS = {
     "contact": ("src/contact/*.h src/contact/*.c", "test_contact|unit.test_contact|symbols.contact"),
-    "sync": ("src/sync/*.c src/sync/*.h fortran/sync/*.f90 fortran/sync/walk/*", "test_sync"),
-    "table": ("src/table/*.c src/table/*.h", "api.test_table_(build|collide|lookup|random|traps)$"),
+    "sync": (
+        "src/sync/*.c src/sync/*.h fortran/sync/*.f90 fortran/sync/walk/*",
+        "unit.test_sync|api.test_sync$|physics.test_sync_(truth|ledger|corners|convergence)",
+    ),
+    "table": ("src/table/*.c src/table/*.h", "api.test_table_(build|collide|limits|lookup|random|traps)$"),
     "euler": (
         "fortran/euler/*.f90 fortran/common/*.f90 src/euler/*.c",
         "unit|physics.test_(si_euler|truth)|api.test_(collide|history|solver|many)",

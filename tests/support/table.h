@@ -38,6 +38,33 @@ static inline restitute_table *table_of(const restitute_scene *scene, double low
     return table;
 }
 
+/* 0.01 to 10 m/s, to 1e-4. */
+static inline restitute_table_options options_of(int threads)
+{
+    restitute_table_options options;
+    restitute_table_options_init(&options);
+    options.speed[0] = 1e-2, options.speed[1] = 10;
+    options.tolerance = 1e-4;
+    options.threads = threads;
+    return options;
+}
+
+static inline restitute_table *built(const restitute_scene *scene, const restitute_table_options *options)
+{
+    restitute_table *table = NULL;
+    restitute_error error;
+    CHECK(restitute_table_build(scene, options, &table, &error) >= 0, "%s", error.message);
+    return table;
+}
+
+static inline restitute_table_info describe(const restitute_table *table)
+{
+    restitute_table_info info;
+    restitute_table_info_init(&info);
+    assert_int_equal(restitute_table_describe(table, &info, NULL), RESTITUTE_OK);
+    return info;
+}
+
 struct pair {
     double ez, ex;
 };

@@ -380,16 +380,17 @@ typedef struct restitute_options {
                                          restitute_result.work), not measured: a nominal second
                                          takes about one second of a core of the year 2020, and the
                                          same call ends at the same place on every machine, if
-                                         time_limit is infinite. A call
-                                         that reaches it before the tolerance returns its best with
-                                         TOLERANCE_NOT_REACHED */
+                                         time_limit is infinite. A call that reaches it before the
+                                         tolerance, or whose next refinement would, returns its best
+                                         with TOLERANCE_NOT_REACHED */
     double time_limit;              /**< processor time that an impact may take, in s, >= 0. From
                                          0.1 s on it is kept within a factor of two; a history,
                                          events and a ledger come on top. 0 (default): 1 s, or no
                                          limit if `elements` or `time_step` is given or the method
-                                         is `bem`. infinity: no limit. A call that reaches it
-                                         returns its best with TOLERANCE_NOT_REACHED. That best
-                                         depends on the machine; with max_work it does not */
+                                         is `bem`. infinity: no limit. A call that reaches it, or
+                                         whose next refinement would, returns its best with
+                                         TOLERANCE_NOT_REACHED. That best depends on the machine;
+                                         with max_work it does not */
     double speed_limit;             /**< flag FAST above this v_z0/c_s; >= 0, default 0.1 */
     double radius_limit;            /**< flag LARGE_CONTACT above this a_max/R; >= 0, default 0.1 */
     double displacement_limit;      /**< flag LONG_SLIDE above this tangential travel over a_max; >=
