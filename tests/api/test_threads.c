@@ -114,26 +114,21 @@ static void components(struct job *job)
 #ifdef RESTITUTE_WITH_CVODE
     solve_by(job, restitute_method_cvode(), 1e-2);
 #endif
-}
-
-static void slow_components(struct job *job)
-{
-    (void)job;
 #ifdef RESTITUTE_WITH_BEM
     solve_by(job, restitute_method_bem(), 1e-2);
 #endif
 #ifdef RESTITUTE_WITH_FIT
     restitute_fit_point points[3];
-    restitute_fit_options options = fit_options(RESTITUTE_FIT_MODEL_KELVIN_VOIGT);
+    restitute_fit_options fit = fit_options(RESTITUTE_FIT_MODEL_KELVIN_VOIGT);
     restitute_scene scenes[3];
     drops(3, 0.1, 0.3, scenes, points);
     for (int i = 0; i < 3; i++) {
         points[i].ez = 0.9 - 0.05 * i;
         points[i].contact_time = 1e-3 * (3 - 0.3 * i);
     }
-    options.starts = 1;
-    options.threads = 2;
-    const restitute_fit_result result = fitted(3, points, &options);
+    fit.starts = 1;
+    fit.threads = 2;
+    const restitute_fit_result result = fitted(3, points, &fit);
     give(job, result.value[0]);
     restitute_material_destroy(result.material);
 #endif
@@ -142,10 +137,9 @@ static void slow_components(struct job *job)
 static void *work(void *data)
 {
     pthread_barrier_wait(&shared.begin);
-    slow_components(data);
     for (int i = 0; i < rounds; i++) {
-        core(data);
         components(data);
+        core(data);
     }
     return NULL;
 }

@@ -97,11 +97,10 @@ class Run:
     def check(self, left=PARTIAL + r"|\.restitute-\d+\.tmp)"):
         """Nothing is lost, nothing half done under a final name."""
         there = files()
-        for name, old in self.before.items():
-            assert there.get(name) in (old, self.files[name]), f"{name} is lost or half written"
-        for name, found in there.items():
+        for name in there | self.before:
             if name in self.files:
-                assert found in (self.files[name], self.before.get(name)), f"{name} is half written"
+                right = (self.files[name], self.before.get(name))
+                assert there.get(name) in right, f"{name} is lost or half written"
             else:
                 assert re.fullmatch(left, name), f"{name} is left"
         return there
