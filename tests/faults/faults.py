@@ -47,7 +47,7 @@ RUNS = {
                "--events e.csv --output h.csv --figure h.png",
 }
 SHORT = ("table by Python", "batch", "fit")
-PARTIAL = r".*(\.partial|\.partial\.json"
+PARTIAL, TEMPORARY = r".*\.partial(\.json)?", r".*\.restitute-\d+\.tmp"
 ALL = 10**9  # no call has this number
 OLD = b"of an earlier run\n"
 
@@ -94,7 +94,7 @@ class Run:
         for name in self.before:
             (PLACE / name).write_bytes(OLD)
 
-    def check(self, left=PARTIAL + r"|\.restitute-\d+\.tmp)"):
+    def check(self, left=f"{PARTIAL}|{TEMPORARY}"):
         """Nothing is lost, nothing half done under a final name."""
         there = files()
         for name in there | self.before:
@@ -152,7 +152,7 @@ class Run:
 
     def check_refusal(self, status, said, number):
         """Done, or the message says why not."""
-        there = self.check(PARTIAL + ")")
+        there = self.check(left=PARTIAL)
         if status == self.status:
             assert all(there.get(name) == self.files[name] for name in self.files), "is not done"
         else:
