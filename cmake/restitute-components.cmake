@@ -72,6 +72,10 @@ endforeach()
 # Without it batches are solved by one thread, with the same results.
 if(RESTITUTE_OPENMP)
   find_package(OpenMP QUIET COMPONENTS C)
+  set(restitute_openmp_names ${OpenMP_C_LIB_NAMES})
+  if(NOT CMAKE_C_COMPILER_ID STREQUAL "GNU") # linkers do not look where LLVM's is
+    set(restitute_openmp_names ${OpenMP_C_LIBRARIES})
+  endif()
 endif()
 restitute_decide(OPENMP "openmp (several threads in C)" OpenMP_C_FOUND "${need_openmp}")
 
