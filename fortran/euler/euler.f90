@@ -117,7 +117,7 @@ contains
       end if
       call correct_edge(scene, gain, f, q, n_old, advance_z, advance_x, state)
       call accelerate_sphere(scene, state)
-      call start_sticking(scene, x2, yz, u, yx, q, state)
+      call start_sticking(scene, x2, yz, u, yx, q, slip, state)
       call judge_phase(scene, g, x2, yz, advance_z, state)
     end do
   end subroutine advance_impact
@@ -255,25 +255,21 @@ contains
   end subroutine accelerate_sphere
 
   !> Gross slip ends everywhere at once when U' = D' (theory.md, 4): every element then has q = f,
-  !> u_x = D - X^2 and the same stresses in x as in z.
-  pure subroutine start_sticking(scene, x2, yz, u, yx, q, state)
+  !> u_x = D - X^2 and the same stresses in x as in z. The step that ends here slipped.
+  pure subroutine start_sticking(scene, x2, yz, u, yx, q, slip, state)
     type(scene_type), intent(in) :: scene
     real(dp), intent(in) :: x2(scene%capacity), yz(scene%capacity, scene%n_terms)
-    real(dp), intent(inout) :: u(scene%capacity), yx(scene%capacity, scene%n_terms), q(scene%capacity)
+    real(dp), intent(inout) :: u(scene%capacity), yx(scene%capacity, scene%n_terms), q(scene%capacity), slip(scene%capacity)
     type(state_type), intent(inout) :: state
-    integer(ip) :: j, k
+    integer(ip) :: n
     if (state%mode /= mode_gross_slip) return
     if (state%shear_velocity > state%velocity) return
     state%mode = mode_partial_slip
-    do j = 1, state%n_contact
-      u(j) = state%depth - x2(j)
-      q(j) = 0
-    end do
-    do k = 1, scene%n_terms
-      do j = 1, state%n_contact
-        yx(j, k) = yz(j, k)
-      end do
-    end do
+    n = state%n_contact
+    u(1:n) = state%depth - x2(1:n)
+    q(1:n) = 0
+    slip(1:n) = 1
+    yx(1:n, :) = yz(1:n, :)
   end subroutine start_sticking
 
   !> Stop if the rebound is so slow that a step does not change the rounded indentation. Compression
