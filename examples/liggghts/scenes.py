@@ -17,7 +17,7 @@ def liggghts(lines, ranks=1, plugin=PLUGIN, fails=False):
         command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks)] + command
     with open("scene.in", "w") as out:
         out.write(lines)
-    environment = os.environ | {"LD_PRELOAD": plugin, "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+    environment = os.environ | {"LD_PRELOAD": f"{os.environ.get('LD_PRELOAD', '')}:{plugin}", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
     done = subprocess.run(command, env=environment, capture_output=True, encoding="latin-1", timeout=300)
     check((done.returncode != 0) == fails, f"exit status {done.returncode}: {done.stdout[-3000:]}{done.stderr[-2000:]}")
     return done.stdout + done.stderr
