@@ -21,7 +21,6 @@ struct room {
     struct walk_level *level;
     struct walk_shear *shear;
     struct walk_term *term;
-    int64_t capacity;
 };
 
 static int lay_out(struct rst_motion *motion, int64_t n_panels, int64_t most, size_t terms, struct room *r)
@@ -33,7 +32,6 @@ static int lay_out(struct rst_motion *motion, int64_t n_panels, int64_t most, si
     const size_t count = marks + levels * (1 + of_level + of_shear + terms) + terms + (terms + 1) * of_term +
                          capacity * (walk_columns + 2 * (terms + 1));
     if (rst_make_room(&motion->walk_room, &motion->walk_size, count)) return 1;
-    r->capacity = (int64_t)capacity;
     r->mark = motion->walk_room;
     r->time = r->mark + marks;
     r->level = (struct walk_level *)(r->time + levels);
