@@ -49,7 +49,7 @@ module rst_sync_element_step
   !> part.
   type :: step_type
     real(dp) :: h, start_response, end_response, viscous, drop
-    real(dp) :: swing  !! what replaces h in the tangential motion
+    real(dp) :: stretch  !! of h in the tangential motion
     integer(ip) :: last  !! elements 0 to last are in contact
     integer(ip) :: top   !! elements 0 to top are computed, whole groups of lanes; the others weigh nothing
   end type step_type
@@ -85,7 +85,7 @@ contains
     step%h = h
     square = min(mass_factor*walk%chi*h*sum(term%decay*term%from_start)*stuck, largest_phase)
     stretch = square/3 + 2*square**2/15
-    step%swing = (1 + stretch)*h
+    step%stretch = 1 + stretch
     term%from_start = (1 + stretch*term%decay)*term%from_start
     term%from_end = (1 + stretch*term%decay)*term%from_end
     step%start_response = sum(term%from_start)
@@ -171,7 +171,7 @@ contains
         slip = (q - min(max(q, -limit), limit))*admittance
         q = min(max(q, -limit), limit)
         kept = (1 - step%drop)*body(i, c_slip) + step%drop*slip
-        impulse = body(i, c_weight)*(body(i, c_force) + q)*step%swing/2
+        impulse = body(i, c_weight)*(body(i, c_force) + q)*step%stretch*step%h/2
         frictions(l) = frictions(l) + impulse*(kept + slip)/2
         works(l) = works(l) + impulse*(velocity(0) - kept + velocity(1) - slip)/2
         body(i, c_force) = q

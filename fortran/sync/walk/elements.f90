@@ -201,7 +201,7 @@ contains
     integer(ip) :: trial
     m = memory_of(2*mass_factor*walk%chi*step%h*step%viscous*max(level(0)%radius, level(1)%radius))
     w = m%phi2/m%phi1
-    push = step%swing/step%h*2*walk%chi*(level(0)%velocity - level(1)%velocity)/((1 - w)*level(0)%force + w*level(1)%force)
+    push = step%stretch*2*walk%chi*(level(0)%velocity - level(1)%velocity)/((1 - w)*level(0)%force + w*level(1)%force)
     v = shear(0)%velocity
     if (level(0)%force > 0) v = v - 2*walk%chi*(level(0)%velocity - level(1)%velocity)*shear(0)%force/level(0)%force
     if (walk%prescribed /= 0) v = shear(1)%velocity
