@@ -35,12 +35,17 @@ def windows(steps):
             for first, length in ((0.8, 5), (5.9, 4.6))]
 
 
+def overlap(steps):
+    """Steps after the end of a part that the next process makes, too."""
+    return steps // 20 // EVERY * EVERY
+
+
 def command(args, part):
     steps = args.steps // PARTS
     (begin1, periods1), (begin2, periods2) = windows(steps)
     values = {"plugin": args.built / "restituteplugin.so", "part": part, "steps": steps,
               "bead": HERE.parents[1] / "examples/lammps/bead.json", "beads": args.beads,
-              "every": EVERY, "period": PERIOD, "overlap": steps // 20 // EVERY * EVERY,
+              "every": EVERY, "period": PERIOD, "overlap": overlap(steps),
               "begin1": begin1, "periods1": periods1, "begin2": begin2, "periods2": periods2}
     venv = args.built / "venv/bin"
     words = [venv / "mpiexec", "-n", args.ranks, venv / "lmp", "-in", HERE / "in.long", "-nocite",
@@ -48,8 +53,12 @@ def command(args, part):
     return list(map(str, itertools.chain(words, *(("-var", *pair) for pair in values.items()))))
 
 
-def report_part(directory, part, beads, shaken):
-    """Prints what a part did; its last step, and what is wrong."""
+def report_part(directory, part, args):
+    """Prints what a part did; its last step, its intervals at rest, and what is wrong."""
+    steps, beads = args.steps // PARTS, args.beads
+    shaken = [(begin, begin + PERIOD * periods) for begin, periods in windows(steps)]
+    if not (directory / f"part.{part}.log").exists():
+        return 0, 0, [f"part {part}: no log"]
     text = (directory / f"part.{part}.log").read_text()
     found = {}  # by step: one that two runs print counts once
     for words in map(str.split, text.splitlines()):
@@ -57,9 +66,9 @@ def report_part(directory, part, beads, shaken):
             found.setdefault(int(words[0]), dict(zip(COLUMNS, map(float, words))))
     rows, faults = list(found.values()), []
     if len(rows) < 2:
-        return 0, faults
+        return 0, 0, [f"part {part}: {len(rows)} rows"]
     first, last = rows[0], rows[-1]
-    moved, worst, gain, scale = 0.0, 0.0, -math.inf, 0.0
+    moved, worst, gain, scale, rests = 0.0, 0.0, -math.inf, 0.0, 0
     for before, row in zip(rows, rows[1:]):
         moved += row["input"]
         lost = row["friction"] + row["dashpots"] - first["friction"] - first["dashpots"]
@@ -67,23 +76,30 @@ def report_part(directory, part, beads, shaken):
         has = row["mechanical"] + row["stored"]
         worst = max(worst, abs(has + lost - moved - first["mechanical"] - first["stored"]))
         if not any(begin < row["step"] and before["step"] < end for begin, end in shaken):
+            rests += 1
             gain = max(gain, has - before["mechanical"] - before["stored"])
         if row["friction"] < before["friction"] or row["dashpots"] < before["dashpots"]:
             faults.append(f"part {part}, step {row['step']:.0f}: a loss falls")
     whole, again = (directory / f"{name}.{part - 1}.restart" for name in ("whole", "again"))
-    same = filecmp.cmp(whole, again, shallow=False) if again.exists() else None
+    same = None
+    if whole.exists() and again.exists():
+        same = filecmp.cmp(whole, again, shallow=False)
     memory = re.findall(r"Maximum resident set size:? *([\d.]+)", text)
     print(f"part {part}: to step {last['step']:.0f}, {last['contacts']:.0f} new contacts, "
           f"restarted with the same bits: {same}, lost {scale:.3e} J, "
           f"ledger off by {worst:.1e} J, largest change in 1000 steps at rest {gain:.1e} J, "
           f"kinetic {last['kinetic']:.1e} J, memory {memory} MB")
+    if last["step"] < part * steps + overlap(steps):
+        faults.append(f"part {part}: ends at step {last['step']:.0f}")
+    if same is None and part > 1:
+        faults.append(f"part {part}: not compared with the process that went on")
     if same is False:
         faults.append(f"part {part}: the restarted process is not the one that went on")
     if gain > ROUNDING * last["mechanical"]:
         faults.append(f"part {part}: energy is created at rest, {gain:.1e} J")
     if worst > LEDGER * scale + 1e-12 * last["mechanical"]:
         faults.append(f"part {part}: the ledger does not close")
-    return last["step"], faults
+    return last["step"], rests, faults
 
 
 def main():
@@ -96,14 +112,14 @@ def main():
     parser.add_argument("--report", action="store_true")
     args = parser.parse_args()
     args.directory.mkdir(parents=True, exist_ok=True)
-    shaken = [(begin, begin + PERIOD * periods) for begin, periods in windows(args.steps // PARTS)]
-    step, faults = 0, []
+    step, rests, faults = 0, 0, []
     for part in range(1, PARTS + 1):
         if not args.report and not (args.directory / f"whole.{part}.restart").exists():
             subprocess.run(command(args, part), cwd=args.directory, check=True)
-        if (args.directory / f"part.{part}.log").exists():
-            step, found = report_part(args.directory, part, args.beads, shaken)
-            faults += found
+        last, found, wrong = report_part(args.directory, part, args)
+        step, rests, faults = max(step, last), rests + found, faults + wrong
+    if rests == 0:
+        faults.append("no interval at rest")
     print(f"{step:.0f} steps;", "; ".join(faults) or "no fault")
     return bool(faults)
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compares outputs of numbers.c:  compare.py FIRST OTHER"""
+"""Compares outputs of numbers.c:  compare.py FIRST OTHER [COMPONENT ...]
+
+Both must have the numbers of every component, but OTHER may lack those that are named."""
 import hashlib
 import sys
 from collections import defaultdict
@@ -22,10 +24,16 @@ def read(path):
     return found
 
 
-first, other = map(read, sys.argv[1:])
+first, other = map(read, sys.argv[1:3])
 print(Path(sys.argv[2]).stem)
 failed = False
-for name, values in other.items():
+for name in sorted(BOUNDS.keys() | first.keys() | other.keys()):
+    values = other.get(name, [])
+    if name not in BOUNDS or not first.get(name) or not values:
+        optional = name in BOUNDS and name in sys.argv[3:] and not values
+        print(f"    {name:8} {'left out' if optional else 'MISSING or unknown'}")
+        failed |= not optional
+        continue
     pairs = [(float(a), float(b)) for a, b in zip(first[name], values)]
     scale = {"contact": max(abs(a) for a, _ in pairs)}.get(name)
     changes = [abs(a - b) / (scale or max(1, abs(a))) for a, b in pairs]
