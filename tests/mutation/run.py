@@ -44,7 +44,7 @@ ROOMS = {
     "euler": (
         "fortran/euler/*.f90 fortran/common/*.f90 src/euler/*.c",
         "unit.test_(kernels|twins|allocation)|physics.test_(si_euler|ledger|slip|prony)$|api.test_(collide|history)$",
-        "unit.test_sync|physics.test_(truth|limits|bounds|convergence|kelvin_voigt|traps)$|api.test_(solver|many)$",
+        "unit.test_sync|physics.test_(truth|limits|convergence|kelvin_voigt|traps|unlike_materials)$|api.test_(solver|many)$",
     ),
 }
 
