@@ -169,6 +169,7 @@ int rst_run_integrate_from(struct run *run)
                                              .n_roots = ROOTS + (run->shears ? run->scene.n_nodes : 0),
                                              .family = run->setup->family,
                                              .horizon = run->setup->depth,
+                                             .longest_step = run->setup->longest_step,
                                              .rates = call_rates,
                                              .roots = call_roots,
                                              .newton = call_newton,

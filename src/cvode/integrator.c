@@ -210,6 +210,7 @@ static int set_up(struct integrator *g, double t)
     int status = status_of(listen(g));
     if (!status) status = status_of(CVodeInit(g->cvode, call_rates, t, g->y));
     if (!status) status = status_of(CVodeSetUserData(g->cvode, g));
+    if (!status) status = status_of(CVodeSetMaxStep(g->cvode, g->system.longest_step)); /* 0: no limit */
     if (!status) status = status_of(CVodeWFtolerances(g->cvode, call_weights));
     if (!status) status = make_solvers(g);
     return status ? status : watch_roots(g);

@@ -13,7 +13,8 @@ enum integrator_family { INTEGRATOR_ADAMS, INTEGRATOR_BDF };
 struct integrator_system {
     int64_t n_states, n_roots;
     enum integrator_family family;
-    double horizon; /* order of the time to be covered: the first step is small against it */
+    double horizon;      /* order of the time to be covered: the first step is small against it */
+    double longest_step; /* 0: any */
     int (*rates)(void *owner, double t, const double *y, double *rate);
     void (*roots)(void *owner, double t, const double *y, double *value); /* an event where a value falls through 0 */
     void (*newton)(void *owner, double gamma, const double *y, const double *b,

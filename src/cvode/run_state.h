@@ -20,6 +20,7 @@ struct run_setup {
     double radius;     /* largest, of the elements; 0 without elements */
     double rebound;    /* D' at the end, where known: decides on slip to the end */
     double rest_speed; /* a sphere that cannot rebound faster than this has sunk in */
+    double longest_step; /* 0: any */
     enum integrator_family family;
     int64_t budget;                  /* of updates: what this run may spend */
     double until;                    /* of the problem's clock: when this run has to end */

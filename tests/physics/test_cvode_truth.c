@@ -2,6 +2,7 @@
  * error, and the stiff corner.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdlib.h>
+#include <string.h>
 
 #include "../support/cvode.h"
 #include "../support/data.h"
@@ -130,12 +131,13 @@ static void stiff_corner_agrees_with_sync(void **state)
  * of docs/records/extremes.md were off by 3 to 15 estimates, and by more than their tolerances. */
 static void loose_tolerances_hold_where_the_sphere_vibrates(void **state)
 {
-    const double cases[][5] = {{0.01, 12.39, 1.743e-3, 0, 1},
-                               {0.005, 6.56673044665317, 1.478458884341126e-3, 13812807.21515963, 8.766899032469829e-05},
-                               {0.01, 6.531842819867593, 8.64387353440795e-3, 13799233.282993942, 6.311062559492143e-05},
-                               {0.01, 730.5767728574320, 1.208011401384566, 0, 1},
-                               {0.1, 470.3531295039139, 1.334739043642375, 4.145102290283063e-9, 21035.321006124799},
-                               {0.005, 782.2133409756458, 1.381025220824539, 2.775662320058409e-11, 0}};
+    const double cases[][5] = {
+        {0.01, 12.39, 1.743e-3, 0, 1},
+        {0.005, 6.56673044665317, 1.478458884341126e-3, 13812807.21515963, 8.766899032469829e-05},
+        {0.01, 6.531842819867593, 8.64387353440795e-3, 13799233.282993942, 6.311062559492143e-05},
+        {0.01, 730.5767728574320, 1.208011401384566, 0, 1},
+        {0.1, 470.3531295039139, 1.334739043642375, 4.145102290283063e-9, 21035.321006124799},
+        {0.005, 782.2133409756458, 1.381025220824539, 2.775662320058409e-11, 0}};
     (void)state;
     for (int i = 0; i < 6; i++) {
         const double *c = cases[i];
@@ -180,6 +182,33 @@ static void energy_is_accounted_for(void **state)
     }
 }
 
+/* The parts are those of sync within the residual of the broadest grid (0.015, docs/cvode.md);
+ * narrower slip is told by a remark. */
+static void parts_of_the_ledger_are_those_of_sync(void **state)
+{
+    const double cases[][4] = {
+        {7.0 / 6, 0.05, 0, 1}, {7.0 / 6, 0.3, 0.3, 1}, {2.13889, 0.07024, 0.00278, 0.98664}, {3, 2, 1, 1}};
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        const restitute_impact impact = impact_of(cases[i][0], cases[i][1], cases[i][2], cases[i][3]);
+        const restitute_ledger l = solve_impact(cvode_to(1e-3), impact).ledger,
+                               r = solve_impact(sync_to(1e-5), impact).ledger;
+        CHECK_NEAR(l.friction_x, r.friction_x, 0.02, "case %d", i);
+        CHECK_NEAR(l.left_x, r.left_x, 0.02, "case %d", i);
+        CHECK_NEAR(l.viscous_x, r.viscous_x, 0.02, "case %d", i);
+    }
+    const restitute_impact narrow = impact_of(39.387, 1.1373e-3, 26.778, 36.531);
+    restitute_ledger l;
+    restitute_solver *solver;
+    restitute_error error;
+    const restitute_options options = cvode_to(1e-3);
+    restitute_ledger_init(&l);
+    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(restitute_solve(solver, &narrow, NULL, &l, NULL, &error) == RESTITUTE_OK, "%s", error.message);
+    CHECK(fabs(l.residual_x) > 0.01 && strstr(error.message, "ledger: "), "%g: '%s'", l.residual_x, error.message);
+    restitute_solver_destroy(solver);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -191,6 +220,7 @@ int main(void)
         cmocka_unit_test(loose_tolerances_hold_where_the_sphere_vibrates),
         cmocka_unit_test(families_agree),
         cmocka_unit_test(energy_is_accounted_for),
+        cmocka_unit_test(parts_of_the_ledger_are_those_of_sync),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
