@@ -243,7 +243,7 @@ static int not_reached(const struct impact *impact, const struct rst_outcome *ou
         (long long)outcome->steps);
 }
 
-static int no_result(const struct impact *impact, enum bem_end end, double step, restitute_error *error)
+static int no_result(const struct impact *impact, enum bem_end end, double step, int late, restitute_error *error)
 {
     const struct rst_problem *p = impact->problem;
     if (end == BEM_NO_MEMORY) return out_of_memory(error);
@@ -251,8 +251,8 @@ static int no_result(const struct impact *impact, enum bem_end end, double step,
         return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "the contact lasts too long for steps of %.3g %s",
                           step * p->time_unit, p->unit_name);
     if (end == BEM_REBOUND || end == BEM_SUNK) /* one run only, nothing to compare it with */
-        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK,
-                          "max_work = %g: reached before there was a result; raise it", p->max_work);
+        return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "%s: too little for the two runs of a result; raise it",
+                          rst_spent(p, late).text);
     return rst_report(error, RESTITUTE_ERROR_UNSTABLE_STEP,
                       "steps of %.6g %s: unstable or contact not found; take a smaller time_step or another method",
                       step * p->time_unit, p->unit_name);
@@ -302,7 +302,7 @@ static int solve_prescribed(struct impact *impact, struct rst_outcome *outcome, 
     const enum bem_end end_of_coarse = run_once(impact, elements / 2, 2 * step, 0, &beside, &coarse);
     if (end_of_coarse == BEM_NO_MEMORY) return out_of_memory(error);
     const enum bem_end end = run_once(impact, elements, step, impact->keep_ledger, &setup, &run);
-    if (end != BEM_REBOUND && end != BEM_SUNK) return no_result(impact, end, step, error);
+    if (end != BEM_REBOUND && end != BEM_SUNK) return no_result(impact, end, step, 0, error);
     fill(impact, &setup, elements, &run, outcome);
     if (end_of_coarse == end)
         compare(impact, &coarse, &run, elements, outcome);
@@ -311,19 +311,12 @@ static int solve_prescribed(struct impact *impact, struct rst_outcome *outcome, 
     return met(impact, outcome) ? RESTITUTE_OK : not_reached(impact, outcome, error);
 }
 
-/* A run takes about ten times as long as the one before, which began with `left` seconds. */
-static int too_much(const struct impact *impact, int64_t last, double left)
-{
-    return rst_lacks_time(impact->problem, 10, left) ||
-           (double)impact->updates + 10 * (double)last > (double)impact->problem->max_updates;
-}
-
 static int solve_refining(struct impact *impact, struct rst_outcome *outcome, restitute_error *error)
 {
     const double duration = duration_of(impact);
     struct bem_setup setup;
     struct bem_run run, coarse = {.end = BEM_UNSETTLED};
-    int found = 0;
+    int found = 0, late = 0;
     enum bem_end end = BEM_UNSETTLED;
     double step = 0, last_worst = 0;
     for (double elements = first_elements; elements <= most_elements; elements *= 2) {
@@ -342,9 +335,12 @@ static int solve_refining(struct impact *impact, struct rst_outcome *outcome, re
             found = 1;
         }
         coarse = run;
-        if (too_much(impact, impact->updates - before, left)) break;
+        /* the next run takes about ten times as much as this one, which began with `left` seconds */
+        late = rst_lacks_time(impact->problem, 10, left);
+        const double next = (double)impact->updates + 10 * (double)(impact->updates - before);
+        if (late || next > (double)impact->problem->max_updates) break;
     }
-    return found ? not_reached(impact, outcome, error) : no_result(impact, end, step, error);
+    return found ? not_reached(impact, outcome, error) : no_result(impact, end, step, late, error);
 }
 
 static int bem_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,

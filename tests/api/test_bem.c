@@ -58,7 +58,7 @@ static void refusals(void **state)
     options = options_of(0, 1e-3);
     options.max_work = 1e-8;
     error = refused(options, impact_of(1, 0.5, 1, 1), RESTITUTE_ERROR_TOO_MUCH_WORK);
-    assert_non_null(strstr(error.message, "reached before there was a result"));
+    assert_non_null(strstr(error.message, "too little for the two runs of a result"));
     options = options_of(0, 1e-3);
     error = refused(options, impact_of(1, 0.5, 1e3, 1e-40), RESTITUTE_ERROR_CONVERGENCE);
     assert_non_null(strstr(error.message, "no box"));
