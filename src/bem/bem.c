@@ -335,7 +335,7 @@ static int solve_refining(struct impact *impact, struct rst_outcome *outcome, re
             found = 1;
         }
         coarse = run;
-        /* the next run takes about ten times as much as this one, which began with `left` seconds */
+        /* the next run takes some ten times as much as this one, which began with `left` seconds */
         late = rst_lacks_time(impact->problem, 10, left);
         const double next = (double)impact->updates + 10 * (double)(impact->updates - before);
         if (late || next > (double)impact->problem->max_updates) break;

@@ -112,8 +112,8 @@ static void sink(const struct rst_problem *problem, struct rst_outcome *outcome)
     ledger->viscous_x = before * before - after * after - ledger->friction_x;
 }
 
-/* Where the slip at the edge is narrower than an element, what friction takes and what elements hold
- * as they leave are mistaken for each other. */
+/* Where the slip at the edge is narrower than an element, what friction takes and what elements
+ * hold as they leave are mistaken for each other. */
 static int remark_residual(const struct rst_problem *problem, const struct rst_outcome *outcome, restitute_error *error)
 {
     static const double remarkable = 0.01;

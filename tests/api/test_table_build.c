@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -175,6 +176,15 @@ static void data_makes_the_same_table(void **state)
         CHECK(restitute_table_create(&d, &none, &error) == expected && !none, "%d: %s", i, error.message);
         CHECK(strstr(error.message, words[i]), "\"%s\" does not say \"%s\"", error.message, words[i]);
     }
+    const size_t count = 4 * (size_t)good.speeds * (size_t)places_of(&good), size = count * sizeof(double);
+    double *ex = malloc(size);
+    restitute_table_data last = good;
+    memcpy(ex, good.ex, size);
+    ex[count - 1] = NAN, last.ex = ex;
+    restitute_table *none = NULL;
+    CHECK(restitute_table_create(&last, &none, &error) == RESTITUTE_ERROR_DOMAIN && !none, "%s", error.message);
+    CHECK(strstr(error.message, "ex[") && strstr(error.message, "nan"), "%s", error.message);
+    free(ex);
     restitute_table_destroy(table);
     restitute_table_destroy(copy);
     restitute_material_destroy(material);
@@ -292,9 +302,12 @@ static void many_tables_at_once(void **state)
     assert_int_equal(calls, 1);
     assert_int_equal(restitute_table_build_many(0, materials, &scene, &options, NULL, NULL, tables, &error),
                      RESTITUTE_ERROR_DOMAIN);
-    materials[1] = NULL;
-    assert_int_equal(restitute_table_build_many(2, materials, &scene, &options, NULL, NULL, tables, &error),
-                     RESTITUTE_ERROR_NULL);
+    for (int i = 1; i >= 0; i--) {
+        materials[i] = NULL;
+        assert_int_equal(restitute_table_build_many(2, materials, &scene, &options, NULL, NULL, tables, &error),
+                         RESTITUTE_ERROR_NULL);
+        CHECK(strstr(error.message, i ? "materials[1]" : "materials[0]"), "%s", error.message);
+    }
     restitute_table_destroy(first);
     restitute_table_destroy(second);
     restitute_material_destroy(unlike);

@@ -176,6 +176,42 @@ static void other_sizes(void **state)
     restitute_solver_destroy(solver);
 }
 
+/* A Kelvin-Voigt solid and one that flows, softer than 1 Pa, by tables of stiffer and faster ones: a
+ * factor of all moduli and one of all times. */
+static void other_materials_of_one_shape(void **state)
+{
+    (void)state;
+    for (int flows = 0; flows < 2; flows++) {
+        restitute_material *of_table, *other;
+        restitute_options options = to_tolerance(1e-5);
+        restitute_solver *solver;
+        restitute_table_contact contact;
+        restitute_result result;
+        restitute_error error;
+        const double tau[] = {1e-3, 2e-2}, slow[] = {0.3, 6}, g[] = {2e5, 1e5}, soft[] = {0.2, 0.1};
+        restitute_scene impact = scene;
+        of_table = flows ? solid_of(0, 0, 2, tau, g) : solid_of(1e6, 300, 0, NULL, NULL);
+        other = flows ? solid_of(0, 0, 2, slow, soft) : solid_of(0.5, 0.03, 0, NULL, NULL);
+        impact.material = of_table;
+        restitute_table *one = table_of(&impact, 0.01, 10, 1e-4);
+        impact.material = other;
+        restitute_result_init(&result);
+        restitute_table_contact_init(&contact);
+        CHECK(restitute_table_contact_set(one, &impact, &contact, &error) == RESTITUTE_OK, "%s", error.message);
+        impact.normal_speed = 0.3 / contact.speed_factor, impact.tangential_speed = 0.2 / contact.speed_factor;
+        options.method = restitute_method_sync();
+        assert_int_equal(restitute_solver_create(&options, &solver, &error), RESTITUTE_OK);
+        CHECK(restitute_solve_scene(solver, &impact, &result, NULL, NULL, &error) >= 0, "%s", error.message);
+        const struct pair pair = look_up_for(one, &contact, impact.normal_speed, impact.tangential_speed);
+        CHECK_NEAR(pair.ez, result.ez, 1.1e-4, "flows %d", flows);
+        CHECK_NEAR(pair.ex, result.ex, 1.1e-4, "flows %d", flows);
+        restitute_solver_destroy(solver);
+        restitute_table_destroy(one);
+        restitute_material_destroy(of_table);
+        restitute_material_destroy(other);
+    }
+}
+
 static void other_contacts_are_refused(void **state)
 {
     restitute_table_contact contact;
@@ -364,6 +400,7 @@ int main(void)
                                        cmocka_unit_test(bounded),
                                        cmocka_unit_test(many_at_once),
                                        cmocka_unit_test(other_sizes),
+                                       cmocka_unit_test(other_materials_of_one_shape),
                                        cmocka_unit_test(other_contacts_are_refused),
                                        cmocka_unit_test(shifted_times),
                                        cmocka_unit_test(factors_out_of_range),
