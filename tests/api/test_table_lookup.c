@@ -176,8 +176,8 @@ static void other_sizes(void **state)
     restitute_solver_destroy(solver);
 }
 
-/* A Kelvin-Voigt solid and one that flows, softer than 1 Pa, by tables of stiffer and faster ones: a
- * factor of all moduli and one of all times. */
+/* A Kelvin-Voigt solid and one that flows, softer than 1 Pa, by tables of stiffer and faster ones:
+ * a factor of all moduli and one of all times. */
 static void other_materials_of_one_shape(void **state)
 {
     (void)state;
