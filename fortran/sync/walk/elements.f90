@@ -237,7 +237,7 @@ contains
     slide = (walk%psi - 2*walk%chi + (2*walk%chi - 1)*(1 + velocity)/2)*(1 - velocity)/mass_factor
     ledger%left_z = 2*mass_factor*account%left_z
     ledger%viscous_z = 2*mass_factor*max(account%work_z - account%left_z, 0.0_dp)
-    ledger%friction_x = 4*mass_factor*walk%chi*(account%friction + slide)
+    ledger%friction_x = 4*mass_factor*walk%chi*max(account%friction + slide, 0.0_dp)
     ledger%left_x = 4*mass_factor*walk%chi*account%left_x
     ledger%viscous_x = 4*mass_factor*walk%chi*max(account%work_x - account%left_x, 0.0_dp)
     if (walk%mode == mode_frictionless) ledger = ledger_type(ledger%viscous_z, ledger%left_z, 0.0_dp, 0.0_dp, 0.0_dp)
