@@ -54,7 +54,7 @@ void rst_table_loop(int threads, int64_t n, void (*turn)(void *of, int thread, i
 void rst_table_one_at_a_time(void (*act)(void *of), void *of)
 {
 #ifdef _OPENMP
-#pragma omp critical
+#pragma omp critical(rst_table_one_at_a_time)
 #endif
     act(of);
 }

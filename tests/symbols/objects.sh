@@ -4,7 +4,8 @@
 #   - they define nothing but rst_*, restitute_* and procedures of Fortran modules of such names
 #   - a name is of one source: programs may link several static components
 #   - those from Fortran take no memory: compilers do not look whether there is any
-# NM comes from the environment. What begins with another double underscore is the sanitizers' own.
+# NM comes from the environment. What begins with another double underscore is the sanitizers' own;
+# clang gives a critical section of OpenMP a lock by its name.
 set -eu
 wrong=0
 
@@ -16,7 +17,7 @@ complain() {
 defined=$("$NM" -g --defined-only "$@")
 defined=$(echo "$defined" | awk 'NF == 3 { print $NF }')
 [ -n "$defined" ] || complain "nothing is defined in" "$@"
-foreign=$(echo "$defined" | grep -v -E '^(rst_|restitute_|(__|_QM)(rst_[a-z0-9_]+|restitute)(_MOD_|P|E))' | grep -v -E '^__[a-z_]*(a|ub)san' || true)
+foreign=$(echo "$defined" | grep -v -E '^(rst_|restitute_|\.gomp_critical_user_rst_|(__|_QM)(rst_[a-z0-9_]+|restitute)(_MOD_|P|E))' | grep -v -E '^__[a-z_]*(a|ub)san' || true)
 [ -z "$foreign" ] || complain "other names than rst_* and restitute_*:" $foreign
 
 twice=$("$NM" -A -g --defined-only "$@" | sed 's|^.*/||' | awk 'NF == 3 { sub(":.*", "", $1); print $3, $1 }' |
