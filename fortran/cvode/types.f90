@@ -8,7 +8,7 @@ module rst_cvode_types
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
-  public :: scene_type, contact_type, shear_sums_type
+  public :: scene_type, contact_type, shear_sums_type, energy_type
   public :: state_depth, state_velocity, memory_at, loading_at, shift_at, shear_velocity_at, shear_memory_at
 
   integer(ip), parameter :: state_depth = 1, state_velocity = 2
@@ -37,6 +37,13 @@ module rst_cvode_types
     real(dp) :: force, stick, backward
     integer(ip) :: n_contact  !! elements inside the edge
   end type shear_sums_type
+
+  !> An element's stresses, the power of its dashpots and the energy of its springs. Twin of
+  !> `struct element_energy`.
+  type, bind(c) :: energy_type
+    real(dp) :: f = 0, q = 0, viscous_z = 0, viscous_x = 0, held_z = 0, held_x = 0
+    integer(ip) :: motion = 0
+  end type energy_type
 
 contains
 

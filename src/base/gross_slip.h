@@ -31,4 +31,16 @@ static inline double rst_gross_slip_work(const struct rst_problem *problem, doub
     return 4 * chi * ((problem->psi - 2 * chi) * (1 - velocity) + (2 * chi - 1) * (1 - velocity * velocity) / 2);
 }
 
+/* Of a sphere that has sunk in nothing is left at the end of time, neither in it nor in springs,
+ * which all relax: what friction did not take is viscous work. Friction is that of gross slip, to
+ * its end if it ends; slip at the edge after that is counted as viscous. */
+static inline struct rst_ledger rst_sunk_ledger(const struct rst_problem *problem, double shear_velocity)
+{
+    const double end = rst_never_sticks(problem, 0) ? 0 : rst_end_of_gross_slip(problem);
+    const double friction = problem->mode == RST_GROSS_SLIP ? rst_gross_slip_work(problem, end) : 0;
+    const double lost = problem->shear_speed * problem->shear_speed - shear_velocity * shear_velocity;
+    if (problem->mode == RST_FRICTIONLESS) return (struct rst_ledger){.viscous_z = 1};
+    return (struct rst_ledger){.viscous_z = 1, .friction_x = friction, .viscous_x = lost - friction};
+}
+
 #endif

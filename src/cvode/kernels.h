@@ -26,6 +26,12 @@ struct cvode_sums {
     int64_t n_contact;
 };
 
+/* Twin of energy_type. */
+struct element_energy {
+    double f, q, viscous_z, viscous_x, held_z, held_x;
+    int64_t motion;
+};
+
 void rst_cvode_normal_rates(const struct cvode_scene *scene, const double *g, const double *tau, const double *knot,
                             const double *memory, int64_t *near, double t, const double *y, double *rate,
                             struct cvode_contact *contact);
@@ -69,11 +75,10 @@ void rst_cvode_begin_stick(const struct cvode_scene *scene, const double *g, con
 void rst_cvode_solve_newton(const struct cvode_scene *scene, const double *g, const double *tau,
                             const struct cvode_contact *contact, const struct cvode_sums *sums, double gamma,
                             const double *y, const double *b, double *x);
-void rst_cvode_energy_rates(const struct cvode_scene *scene, const double *g, const double *tau,
-                            const struct cvode_contact *contact, const double *x, const double *entry,
-                            const double *past, const int64_t *motion, const double *shift, const double *c,
-                            const double *b, const double *rate_of, const double *u_of, const double *v_of,
-                            const double *amplitude, int64_t shears, int64_t n_last, double t, const double *y,
-                            double *rate, double *held_z, double *held_x);
+void rst_cvode_element_energies(const struct cvode_scene *scene, const double *g, const double *tau, const double *x,
+                                const double *entry, const double *past, const int64_t *motion, const double *shift,
+                                const double *c, const double *b, const double *rate_of, const double *u_of,
+                                const double *v_of, const double *amplitude, int64_t shears, int64_t n_last, double t,
+                                const double *y, struct element_energy *energy);
 
 #endif

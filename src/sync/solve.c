@@ -225,8 +225,9 @@ static int solve(const struct rst_problem *problem, struct rst_workspace *worksp
     const int spent = status == RESTITUTE_TOLERANCE_NOT_REACHED;
     if (status < 0) return status;
     outcome->max_normal_force = largest_force(&fine.run->normal);
-    status = keep_ledger ? rst_motion_ledger(motion, problem, fine.run, outcome, error) : RESTITUTE_OK;
-    return status ? status : conclude(problem, spent, outcome, error);
+    status = conclude(problem, spent, outcome, error);
+    const int kept = keep_ledger ? rst_motion_ledger(motion, problem, fine.run, outcome, error) : RESTITUTE_OK;
+    return kept ? kept : status;
 }
 
 /* Room for three runs on a standard solid. */

@@ -184,29 +184,27 @@ static void energy_is_accounted_for(void **state)
 
 /* The parts are those of sync within the residual of the broadest grid (0.015, docs/cvode.md);
  * narrower slip is told by a remark. */
+/* The last three slip in an annulus narrower than an element. In the last the solid relaxes
+ * meanwhile: friction takes 0.25 then, and 0.64 with the 256 elements that sync begins with. */
 static void parts_of_the_ledger_are_those_of_sync(void **state)
 {
-    const double cases[][4] = {
-        {7.0 / 6, 0.05, 0, 1}, {7.0 / 6, 0.3, 0.3, 1}, {2.13889, 0.07024, 0.00278, 0.98664}, {3, 2, 1, 1}};
+    const double cases[][4] = {{7.0 / 6, 0.05, 0, 1},
+                               {7.0 / 6, 0.3, 0.3, 1},
+                               {2.13889, 0.07024, 0.00278, 0.98664},
+                               {3, 2, 1, 1},
+                               {39.387, 1.1373e-3, 26.778, 36.531},
+                               {55.663, 2.198e-3, 0.02194, 1.257},
+                               {1.3211, 3.573e-3, 1.73e-3, 5.466e-3}};
     (void)state;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 7; i++) {
         const restitute_impact impact = impact_of(cases[i][0], cases[i][1], cases[i][2], cases[i][3]);
         const restitute_ledger l = solve_impact(cvode_to(1e-3), impact).ledger,
                                r = solve_impact(sync_to(1e-5), impact).ledger;
         CHECK_NEAR(l.friction_x, r.friction_x, 0.02, "case %d", i);
         CHECK_NEAR(l.left_x, r.left_x, 0.02, "case %d", i);
         CHECK_NEAR(l.viscous_x, r.viscous_x, 0.02, "case %d", i);
+        CHECK_NEAR(l.residual_x, 0, 0.005, "case %d", i);
     }
-    const restitute_impact narrow = impact_of(39.387, 1.1373e-3, 26.778, 36.531);
-    restitute_ledger l;
-    restitute_solver *solver;
-    restitute_error error;
-    const restitute_options options = cvode_to(1e-3);
-    restitute_ledger_init(&l);
-    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
-    CHECK(restitute_solve(solver, &narrow, NULL, &l, NULL, &error) == RESTITUTE_OK, "%s", error.message);
-    CHECK(fabs(l.residual_x) > 0.01 && strstr(error.message, "ledger: "), "%g: '%s'", l.residual_x, error.message);
-    restitute_solver_destroy(solver);
 }
 
 int main(void)

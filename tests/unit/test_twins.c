@@ -16,8 +16,14 @@ struct member {
 };
 
 /* A member; the end of the struct. */
-#define AT(type, member) {#member, offsetof(struct type, member), sizeof ((struct type *)0)->member}
-#define END(type) {"end", sizeof(struct type), 0}
+#define AT(type, member)                                                                                               \
+    {                                                                                                                  \
+#member, offsetof(struct type, member), sizeof((struct type *)0)->member                                       \
+    }
+#define END(type)                                                                                                      \
+    {                                                                                                                  \
+        "end", sizeof(struct type), 0                                                                                  \
+    }
 
 enum { most_members = 40 };
 
@@ -104,6 +110,9 @@ static const struct {
     [17] = {"cvode_sums",
             {AT(cvode_sums, force), AT(cvode_sums, stick), AT(cvode_sums, backward), AT(cvode_sums, n_contact),
              END(cvode_sums)}},
+    [18] = {"element_energy",
+            {AT(element_energy, f), AT(element_energy, q), AT(element_energy, viscous_z), AT(element_energy, viscous_x),
+             AT(element_energy, held_z), AT(element_energy, held_x), AT(element_energy, motion), END(element_energy)}},
 #endif
 };
 
@@ -117,8 +126,8 @@ static void members_begin_where_those_of_their_twin_do(void **state)
         fortran_offsets((int64_t)i, &n, offset);
         CHECK(n > 1 && n <= most_members, "%s: Fortran has %d offsets", structs[i].name, (int)n);
         for (int64_t k = 0; k < n; k++)
-            CHECK(m[k].name && m[k].offset == (size_t)offset[k], "%s.%s: at %zu in C, at %zu in Fortran", structs[i].name,
-                  m[k].name ? m[k].name : "?", m[k].offset, (size_t)offset[k]);
+            CHECK(m[k].name && m[k].offset == (size_t)offset[k], "%s.%s: at %zu in C, at %zu in Fortran",
+                  structs[i].name, m[k].name ? m[k].name : "?", m[k].offset, (size_t)offset[k]);
         CHECK(!m[n].name, "%s.%s: not in Fortran", structs[i].name, m[n].name);
     }
 }
@@ -130,8 +139,8 @@ static void all_members_are_listed(void **state)
     for (size_t i = 0; i < sizeof structs / sizeof *structs; i++) {
         size_t end = 0;
         for (const struct member *m = structs[i].member; m->name; end = m->offset + m->size, m++)
-            CHECK(m->offset == end, "%s.%s: at %zu, but those before it end at %zu", structs[i].name, m->name, m->offset,
-                  end);
+            CHECK(m->offset == end, "%s.%s: at %zu, but those before it end at %zu", structs[i].name, m->name,
+                  m->offset, end);
     }
 }
 

@@ -14,7 +14,7 @@ module twins
                   walk_shear_type, walk_term_type
 #ifdef RESTITUTE_WITH_CVODE
   use rst_cvode_types, only: cvode_scene_type => scene_type, cvode_contact_type => contact_type, &
-                  cvode_sums_type => shear_sums_type
+                  cvode_sums_type => shear_sums_type, element_energy_type => energy_type
 #endif
   implicit none (type, external)
   private
@@ -45,6 +45,7 @@ contains
     type(cvode_scene_type), target :: cvode_scene
     type(cvode_contact_type), target :: cvode_contact
     type(cvode_sums_type), target :: cvode_sums
+    type(element_energy_type), target :: element_energy
 #endif
     n = 0
     select case (i)
@@ -122,6 +123,10 @@ contains
     case (17)
       call put(c_sizeof(cvode_sums), [c_loc(cvode_sums%force), c_loc(cvode_sums%stick), &
                 c_loc(cvode_sums%backward), c_loc(cvode_sums%n_contact)])
+    case (18)
+      call put(c_sizeof(element_energy), [c_loc(element_energy%f), c_loc(element_energy%q), &
+                c_loc(element_energy%viscous_z), c_loc(element_energy%viscous_x), c_loc(element_energy%held_z), &
+                c_loc(element_energy%held_x), c_loc(element_energy%motion)])
 #endif
     end select
 
