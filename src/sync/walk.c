@@ -136,7 +136,7 @@ static void set_levels(const struct sync_normal *normal, const struct ladder *la
         }
         set_level(normal, p, angle, terms, r->left, &r->level[l], &r->time[l], r->memory + (size_t)l * terms);
         if (l > n) r->level[l].radius = r->level[2 * n - l].radius;
-        /* the rounding of the time at least: a spring that slips in no time would have no velocity */
+        /* not 0 by rounding: a spring that slips in no time would have no velocity */
         r->level[l].step = l > 0 ? fmax(r->time[l] - r->time[l - 1], DBL_EPSILON * r->time[l]) : 0;
     }
 }

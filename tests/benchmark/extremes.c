@@ -130,7 +130,8 @@ static void check_result(const struct solved_case *d, double max_work, const cha
 
 /* Parts of the energy are not negative, and nearly all is accounted for: ten times what the methods
  * miss in usual impacts. The estimate of e_z, which ends at 1, covers what the rebound differs by
- * from its square. It is an estimate, not a bound: a fault is ten times as much, as in compare(). */
+ * from its square. It is an estimate, not a bound: a fault is ten times as much, as in
+ * compare(). */
 static void check_ledger(struct campaign *c, const restitute_result *r, const restitute_ledger *l)
 {
     const double parts[] = {l->rebound_z,  l->viscous_z, l->left_z, l->rebound_x,
