@@ -183,6 +183,16 @@ def test_a_table_is_not_made_of_a_path_and_not_written_as_text(table, tmp_path):
         table.save(tmp_path / "t.csv")
 
 
+def test_data_of_other_shapes_are_refused_before_they_are_read(table):
+    for name in ("speed", "ez", "ex", "strain", "modulus"):
+        with pytest.raises(restitute.DomainError, match=rf"^data: {name} has the shape"):
+            restitute.Table.from_data({**table.data, name: table.data[name][1:]})
+    with pytest.raises(restitute.DomainError, match=r"must have \(1000000000,\)$"):
+        restitute.Table.from_data({**table.data, "speeds": 10**9})
+    with pytest.raises(TypeError, match=r"^data = b'\.\.': must be what Table\.data gives$"):
+        restitute.Table.from_data(b"..")
+
+
 def test_an_installation_without_files_says_what_else_keeps_a_table(table, monkeypatch):
     monkeypatch.delitem(_library.LIBRARIES, "table_files", raising=False)
     with pytest.raises(restitute.errors.MissingComponent, match="use pickle"):

@@ -26,6 +26,12 @@ _FROM = (("fast_speed", "not slow against shear waves from {:.4g} m/s on"),
          ("long_slide_speed", "long slide at 45 degrees from {:.4g} m/s on"))
 
 
+def _shapes(struct: Any) -> dict[str, tuple[int, ...]]:
+    n, places = struct.speeds, struct.stick_cells + struct.slip_cells + 2
+    return {"relaxation_time": (struct.terms,), "modulus": (struct.terms,), "speed": (n,),
+            "ez": (n, 2), "strain": (n, 4), "ex": (n, places, 4)}
+
+
 class Table:
     """Restitution pairs of one contact over normal and sliding speed.
 
@@ -137,11 +143,18 @@ class Table:
     def from_data(cls, data: dict[str, Any]) -> Table:
         """A table of the numbers that `data` gives."""
         struct, kept = _library.struct("table_data", "table"), []
+        if not isinstance(data, dict):
+            raise TypeError(f"data = {errors.shown(data)}: must be what Table.data gives")
         for name, value in data.items():
-            if isinstance(value, np.ndarray):
-                kept.append(_library.pointer(np.ascontiguousarray(value, float).ravel()))
-                value = kept[-1]
-            setattr(struct, name, value.encode() if isinstance(value, str) else value)
+            if not isinstance(value, np.ndarray):
+                setattr(struct, name, value.encode() if isinstance(value, str) else value)
+        for name, shape in _shapes(struct).items():
+            values = np.ascontiguousarray(data.get(name, ()), float)
+            if values.shape != shape:
+                raise errors.DomainError(f"data: {name} has the shape {values.shape}, must have "
+                                         f"{shape}")
+            kept.append(_library.pointer(values.ravel()))
+            setattr(struct, name, kept[-1])
         handle = ffi.new("restitute_table **")
         call(_library.table.restitute_table_create, struct, handle)
         return cls(handle[0])
@@ -153,12 +166,8 @@ class Table:
         if not self._data:
             struct = _library.struct("table_data", "table")
             call(_library.table.restitute_table_data_get, self._handle, struct)
-            n, places = struct.speeds, struct.stick_cells + struct.slip_cells + 2
-            shapes: dict[str, tuple[int, ...]] = {
-                "relaxation_time": (struct.terms,), "modulus": (struct.terms,), "speed": (n,),
-                "ez": (n, 2), "strain": (n, 4), "ex": (n, places, 4)}
             self._data = _library.members(struct)
-            for name, shape in shapes.items():
+            for name, shape in _shapes(struct).items():
                 values = np.empty(shape)
                 ffi.memmove(ffi.from_buffer(values), getattr(struct, name), values.nbytes)
                 self._data[name] = values
