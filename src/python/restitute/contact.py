@@ -150,7 +150,9 @@ class ContactLaw:
         places, required = self._places(states, rows), False
         if motions is None:
             motions, required = self.motions(len(places)), not self._given[1].get("frictionless")
-        elif len(motions) != len(places):
+        elif getattr(motions, "dtype", None) != _library.array_type("contact_motion"):
+            raise errors.DomainError("motions: must be an array that `motions` made")
+        elif motions.shape != (len(places),):
             raise errors.DomainError(f"motions: {len(motions)} are given, must be {len(places)}")
         known = list(motions.dtype.fields or ())[1:]
         for name, value in members.items():
