@@ -46,7 +46,7 @@ RUNS = {
     "history": "history --method cvode --psi 0.7 --delta1 1 --gamma 1 --samples 5 "
                "--events e.csv --output h.csv --figure h.png",
 }
-SHORT = ("table by Python", "batch", "fit")
+SHORT = ("table by Python", "batch", "fit", "batch as HDF5")
 PARTIAL, TEMPORARY = r".*\.partial(\.json)?", r".*\.restitute-\d+\.tmp"
 ALL = 10**9  # no call has this number
 OLD = b"of an earlier run\n"
@@ -208,10 +208,10 @@ def main(words):
         random.seed(seed)
         run, done = Run(RUNS[name]), collections.Counter()
         faults = faults_of(run, times, "--disks" in words)
-        if "--short" in words:  # one of each kind that is at a call
-            faults = list(faults_of(run, 0, False))
-            faults = [random.choice([fault for fault in faults if fault[0].startswith(kind)])
-                      for kind in ("killed", "stopped", "full")]
+        if "--short" in words:  # one of each kind that is at a call, and killed at the last one
+            each = [[fault for fault in faults_of(run, 0, False) if fault[0].startswith(kind)]
+                    for kind in ("killed", "stopped", "full")]
+            faults = [*map(random.choice, each), each[0][-1]]
         for what, disturb, *given in faults:
             done[what.split()[0]] += 1
             try:

@@ -109,7 +109,8 @@ class Partial:
         self.leave()
 
     def remove(self):
-        """Leave nothing of it."""
+        """Leave nothing of it; killed meanwhile, one that is empty and needs no settings."""
+        os.ftruncate(self.descriptor, 0)
         for name in (self.settings_path, self.path):
             with suppress(FileNotFoundError):
                 os.unlink(name)
