@@ -68,7 +68,7 @@ static struct rst_ledger follow(const struct rst_solid *s, const struct element_
     }
     if (slips && (leaves || was->motion != RST_ELEMENT_STICKS || is->motion != RST_ELEMENT_STICKS)) {
         const double lost = 0.5 * part * (was->q + is->q) * shift - (held - was->held_x);
-        spent.viscous_x = fmin(spent.viscous_x, lost); /* a step may be longer than a relaxation */
+        spent.viscous_x = fmin(spent.viscous_x, fmax(0, lost)); /* a step may be longer than a relaxation */
         spent.friction_x = lost - spent.viscous_x;
     }
     return spent;
