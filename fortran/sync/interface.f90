@@ -22,7 +22,7 @@ module rst_sync_interface
   !> Twin of `struct sync_store` in C: see store_type; capacity: of records and pieces; room: for
   !> the kernel_room, memory_z, memory_x and loading_x of store_type.
   type, bind(c) :: store_arrays_type
-    integer(c_int64_t) :: capacity, n_records, n_pieces
+    integer(c_int64_t) :: capacity, n_records, n_pieces, n_trials
     type(c_ptr) :: record, piece, corrective, room
   end type store_arrays_type
 
@@ -56,6 +56,7 @@ contains
     call follow_contact(n, contact, s, velocity, found)
     store%n_records = s%n_records
     store%n_pieces = s%n_pieces
+    store%n_trials = s%n_trials
   end subroutine rst_follow_contact
 
   !> The edge angle at which D' has fallen to a velocity; returning: /= 0 in the restitution.
@@ -105,6 +106,7 @@ contains
     points = (1 + stages)*arms
     s%n_records = 0
     s%n_pieces = 0
+    s%n_trials = store%n_trials
     call c_f_pointer(store%record, s%record, [store%capacity])
     call c_f_pointer(store%piece, s%piece, [store%capacity])
     s%corrective(1:of_arm, 0:stages, 1:arms, 1:store%capacity) => numbers(store%corrective, of_arm*points*store%capacity)

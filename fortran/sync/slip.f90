@@ -86,6 +86,7 @@ contains
     type(interval_type), intent(inout) :: interval
     type(solution_type), intent(inout) :: s
     logical :: fails
+    store%n_trials = store%n_trials - 1
     s%quality = too_wide
     call set_interval(normal, store, interval, fails)
     if (fails) return

@@ -40,7 +40,7 @@ contains
     idle = 0
     do while (panel <= normal%n_panels)
       found = lacks_pieces
-      if (store%n_pieces >= size(store%piece) .or. store%n_records >= size(store%record)) return
+      if (store%n_pieces >= size(store%piece) .or. store%n_records >= size(store%record) .or. store%n_trials <= 0) return
       if (sense == sticks .and. panel > normal%n_compression .and. contact%mode /= mode_no_slip) &
         sense = sense_of(velocity) ! the edge of a shrinking contact slips
       s%shear_velocity(0) = velocity

@@ -56,7 +56,7 @@ struct sync_piece {
 
 /* Twin of store_arrays_type. */
 struct sync_store {
-    int64_t capacity, n_records, n_pieces;
+    int64_t capacity, n_records, n_pieces, n_trials; /* n_trials: pieces that may still be tried */
     struct sync_record *record;
     struct sync_piece *piece;
     double *corrective, *room; /* room: (rst_stages + 3) rst_points n_arms */
@@ -64,7 +64,7 @@ struct sync_store {
 
 /* What rst_follow_normal and rst_follow_contact found. */
 enum { RST_REBOUNDS = 0, RST_STOPS = 1, RST_LACKS_ROOM = 2, RST_DOES_NOT_CONVERGE = 3 };
-enum { RST_SOLVED = 0, RST_STICKS_AGAIN = 1, RST_LACKS_PIECES = 2 };
+enum { RST_SOLVED = 0, RST_STICKS_AGAIN = 1, RST_LACKS_PIECES = 2, RST_LACKS_TIME = 3 };
 
 void rst_follow_normal(const struct sync_normal_control *control, struct sync_normal *normal, int64_t *found);
 void rst_follow_contact(const struct sync_normal *normal, const struct sync_contact *contact, struct sync_store *store,

@@ -234,10 +234,14 @@ int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, con
                                          .closeness = closeness * scale,
                                          .stress = usual_stress(&run->normal),
                                          .mode = problem->mode};
+    motion->store.n_trials = (int64_t)fmin(rst_trials_of_piece * (double)most, 1e18);
     for (int64_t capacity = 2 * run->normal.n_panels + rst_first_pieces;; capacity *= 2) {
+        const double left = rst_time_left(problem);
         if (lay_out_store(motion, capacity)) return 1;
         if (capacity > most) motion->store.capacity = most;
         rst_follow_contact(&run->normal, &contact, &motion->store, velocity, found);
-        if (*found != RST_LACKS_PIECES || capacity >= most) return 0;
+        if (*found != RST_LACKS_PIECES || capacity >= most || motion->store.n_trials <= 0) return 0;
+        if (rst_lacks_time(problem, 2, left)) *found = RST_LACKS_TIME; /* twice the pieces, twice the time */
+        if (*found == RST_LACKS_TIME) return 0;
     }
 }

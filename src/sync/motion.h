@@ -69,7 +69,8 @@ double rst_roughness(int halvings);
 double rst_piece_roughness(const struct rst_problem *problem, int halvings);
 
 /* The tangential motion on a run: U' at the end; RST_LACKS_PIECES: it wants more than
- * `most` of them. Nonzero: out of memory. */
+ * `most` of them, or too many trials; RST_LACKS_TIME: more than the time left. Nonzero: out of
+ * memory. */
 int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
                        int halvings, int64_t most, double *velocity, int64_t *found);
 

@@ -8,7 +8,8 @@ static int walk_once(struct rst_motion *motion, const struct rst_problem *proble
 {
     const double n = (double)(parts * (run->normal.n_compression + 1));
     const double work = 2 * n * n * (1.0 + (double)problem->solid.n_terms);
-    if ((double)outcome->updates + work > (double)problem->max_updates) return rst_sync_too_much_work(problem, error);
+    if ((double)outcome->updates + work > (double)problem->max_updates)
+        return rst_sync_too_much_work(problem, rst_time_left(problem) <= 0, error);
     outcome->updates += (int64_t)work;
     if (rst_walk(motion, run, problem, 1, parts, walk))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");

@@ -19,10 +19,10 @@ static inline int rst_meets(const struct rst_problem *problem, const struct rst_
     return rst_larger_error(outcome) <= rst_acceptance * problem->tolerance;
 }
 
-static inline int rst_sync_too_much_work(const struct rst_problem *problem, restitute_error *error)
+static inline int rst_sync_too_much_work(const struct rst_problem *problem, int late, restitute_error *error)
 {
     return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "%s: too little for this impact",
-                      rst_spent(problem, rst_time_left(problem) <= 0).text);
+                      rst_spent(problem, late).text);
 }
 
 #endif

@@ -96,7 +96,7 @@ contains
                 c_loc(sync_piece%stick_radius)])
     case (10)
       call put(c_sizeof(sync_store), [c_loc(sync_store%capacity), c_loc(sync_store%n_records), &
-                c_loc(sync_store%n_pieces), c_loc(sync_store%record), c_loc(sync_store%piece), &
+                c_loc(sync_store%n_pieces), c_loc(sync_store%n_trials), c_loc(sync_store%record), c_loc(sync_store%piece), &
                 c_loc(sync_store%corrective), c_loc(sync_store%room)])
     case (11)
       call put(c_sizeof(walk), [c_loc(walk%n), c_loc(walk%n_terms), c_loc(walk%capacity), c_loc(walk%start), &
