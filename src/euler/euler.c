@@ -186,6 +186,19 @@ static void change(const struct rst_problem *problem, const struct run *a, const
     *ex = fabs(ex_of(problem, &a->state) - ex_of(problem, &b->state));
 }
 
+/* Estimated errors of the last of three levels, by two changes, since one may be small by
+ * chance. */
+static void estimate(const struct rst_problem *problem, const struct run *level, double *ez, double *ex)
+{
+    double before_ez, before_ex;
+    change(problem, &level[1], &level[0], &before_ez, &before_ex);
+    change(problem, &level[2], &level[1], ez, ex);
+    *ez = estimate_slack * fmax(*ez, 0.5 * before_ez);
+    /* the error of the normal motion reaches e_x too, even where the changes of e_x happen to
+     * cancel */
+    *ex = fmax(*ez, estimate_slack * fmax(*ex, 0.5 * before_ex));
+}
+
 static void fill(const struct rst_problem *problem, const struct scout *scout, const struct run *run, double error_ez,
                  double error_ex, int64_t updates, struct rst_outcome *outcome)
 {
@@ -231,38 +244,43 @@ static int finish(const struct rst_problem *problem, const struct rst_outcome *o
                       problem->asked, work);
 }
 
+static double step_for(const struct scout *scout, int64_t elements)
+{
+    const double step =
+        fmin(scout->time / (steps_per_element * (double)elements), stability_margin * scout->stable_step);
+    return scout->sinks ? 0.25 * step : step; /* the estimated time is that of the decay, not of the impact */
+}
+
+static struct run finer(const struct run *run, int64_t times)
+{
+    return (struct run){.elements = times * run->elements, .step = run->step / (double)times};
+}
+
 /* Refine elements and step together until the change between levels meets the tolerance. */
 static int solve_refining(const struct rst_problem *problem, struct rst_workspace *workspace, const struct scout *scout,
                           int keep_ledger, struct rst_outcome *outcome, restitute_error *error)
 {
-    struct run last = {.elements = elements_to_start(problem)}, now;
-    double before_ez = 0, before_ex = 0, ez, ex;
+    struct run run[3] = {[2] = {.elements = elements_to_start(problem)}}, *now = &run[2];
+    double ez, ex;
     int64_t updates = 0;
     int found = 0, late = 0;
-    last.step = fmin(scout->time / (steps_per_element * (double)last.elements), stability_margin * scout->stable_step);
-    if (scout->sinks) last.step *= 0.25; /* the estimated time is that of the decay, not of the impact */
-    int status = run_once(problem, workspace, scout, keep_ledger, &updates, &last, error);
+    now->step = step_for(scout, now->elements);
+    int status = run_once(problem, workspace, scout, keep_ledger, &updates, now, error);
     for (int level = 1; !status; level++) {
         const double left = rst_time_left(problem);
-        now = (struct run){.elements = 2 * last.elements, .step = last.step / 2};
-        status = run_once(problem, workspace, scout, keep_ledger, &updates, &now, error);
+        run[0] = run[1];
+        run[1] = run[2];
+        *now = finer(&run[1], 2);
+        status = run_once(problem, workspace, scout, keep_ledger, &updates, now, error);
         if (status) break;
-        change(problem, &now, &last, &ez, &ex);
-        if (level > 1) { /* two changes, since one may be small by chance */
-            double error_ez = estimate_slack * fmax(ez, 0.5 * before_ez);
-            /* the error of the normal motion reaches e_x too, even where the changes of e_x happen
-             * to cancel */
-            double error_ex = fmax(error_ez, estimate_slack * fmax(ex, 0.5 * before_ex));
-            fill(problem, scout, &now, error_ez, error_ex, updates, outcome);
-            found = 1;
-            if (fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance)
-                return finish(problem, outcome, error);
-            late = rst_lacks_time(problem, 4, left); /* twice the elements, twice the steps */
-            if (late) break;
-        }
-        before_ez = ez;
-        before_ex = ex;
-        last = now;
+        if (level < 2) continue;
+        estimate(problem, run, &ez, &ex);
+        fill(problem, scout, now, ez, ex, updates, outcome);
+        found = 1;
+        if (fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance)
+            return finish(problem, outcome, error);
+        late = rst_lacks_time(problem, 4, left); /* twice the elements, twice the steps */
+        if (late) break;
     }
     if (found && status == RESTITUTE_ERROR_CONVERGENCE)
         return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
@@ -299,25 +317,40 @@ static int choose_resolution(const struct rst_problem *problem, const struct sco
  * run is not meaningful. */
 static const double smooth_part = 0.2;
 
-/* Elements or step prescribed: one run with them, and a coarser or finer one for the error
- * estimate. */
+/* Whether coarser runs say little of the error of this one: it is coarser than the third level of a
+ * refinement, the first that is ever accepted, or its step is nearly unstable. */
+static int is_coarse(const struct rst_problem *problem, const struct scout *scout, const struct run *run)
+{
+    const int64_t third = 4 * elements_to_start(problem);
+    return run->elements < third || run->step > step_for(scout, third) ||
+           2 * run->step >= smooth_part * scout->stable_step;
+}
+
+/* Elements or step prescribed: a run with them, and two others for the error estimate. The run is
+ * the last of three levels or, if it is coarse, the first: its distance from the last is then
+ * added. */
 static int solve_prescribed(const struct rst_problem *problem, struct rst_workspace *workspace, const struct scout *scout,
                          int keep_ledger, struct rst_outcome *outcome, restitute_error *error)
 {
-    struct run told = {0}, beside;
-    double ez, ex;
+    struct run told = {0}, level[3];
+    double ez, ex, off_ez, off_ex;
     int64_t updates = 0;
     int status = choose_resolution(problem, scout, &told, error);
     if (!status) status = run_once(problem, workspace, scout, keep_ledger, &updates, &told, error);
     if (status) return status;
-    int coarser = 2 * told.step < smooth_part * scout->stable_step;
-    beside = coarser ? (struct run){.elements = (told.elements + 1) / 2, .step = 2 * told.step}
-                     : (struct run){.elements = 4 * told.elements, .step = told.step / 4};
-    status = run_once(problem, workspace, scout, 0, &updates, &beside, error);
+    const int coarse = is_coarse(problem, scout, &told);
+    level[coarse ? 0 : 2] = told;
+    for (int64_t times = 2; times <= 4 && !status; times *= 2) {
+        struct run *beside = &level[times == 2 ? 1 : 2 * coarse];
+        *beside = coarse ? finer(&told, times)
+                         : (struct run){.elements = (told.elements + times - 1) / times,
+                                        .step = (double)times * told.step};
+        status = run_once(problem, workspace, scout, 0, &updates, beside, error);
+    }
     if (status) return status;
-    change(problem, &told, &beside, &ez, &ex);
-    double factor = coarser ? estimate_slack : estimate_slack * 4 / 3; /* a quarter of the step keeps a quarter of the error */
-    fill(problem, scout, &told, factor * ez, factor * fmax(ez, ex), updates, outcome);
+    estimate(problem, level, &ez, &ex);
+    change(problem, &told, &level[2], &off_ez, &off_ex);
+    fill(problem, scout, &told, ez + off_ez, fmax(ez + off_ez, ex + off_ex), updates, outcome);
     if (fmax(outcome->error_ez, outcome->error_ex) <= problem->tolerance) return rst_done(error);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
                       "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with the given elements and time_step",

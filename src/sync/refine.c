@@ -43,7 +43,7 @@ static void note_walk(const struct rst_walk *walk, int64_t parts, double velocit
 static int can_double(const struct rst_problem *problem, int64_t n, int walked, double left,
                       struct rst_outcome *outcome)
 {
-    if (problem->elements > 0 || 2 * n > rst_most_elements) return 0;
+    if (2 * n > rst_most_elements) return 0;
     if (walked > 2 && 4 * rst_rounding * (double)n > outcome->error_ex * problem->shear_speed) return 0;
     outcome->late = rst_lacks_time(problem, 4, left);
     return !outcome->late;
@@ -61,8 +61,9 @@ int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *probl
     const int64_t panels = run->normal.n_compression;
     struct rst_walk coarse, now;
     const double rest =
-        outcome->error_ez + rst_piece_part * rst_piece_roughness(problem, outcome->halvings) +
+        outcome->error_ez + rst_piece_error(problem, outcome->halvings) +
         (outcome->sunk ? 4 * problem->chi * run->normal.residual_speed / problem->shear_speed : 0); /* see compare */
+    struct rst_outcome given;
     double before = 0, extrapolated = 0;
     int walked = 1, regular = 0;
     const double first = rst_first_elements * cbrt(fmax(1, problem->chi)); /* U' swings faster than D' */
@@ -83,9 +84,21 @@ int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *probl
         before = plain;
         note_walk(&now, parts, extrapolated, outcome);
         outcome->error_ex = (rst_share_of_change * change + rst_rounding * (double)now.n) / problem->shear_speed + rest;
-        if ((walked > 2 && rst_meets(problem, outcome)) || !can_double(problem, now.n, walked, left, outcome))
-            return outcome->late ? RESTITUTE_TOLERANCE_NOT_REACHED : RESTITUTE_OK;
+        if (walked == 2) given = *outcome;
+        const int checked = walked > 2 && (double)now.n >= 4 * first; /* of chosen elements the third is */
+        if ((checked && (problem->elements > 0 || rst_meets(problem, outcome))) ||
+            !can_double(problem, now.n, walked, left, outcome))
+            break;
         coarse = now;
     }
+    if (problem->elements > 0 && outcome->walked > 0) { /* the finest walk says what the given one is worth */
+        const int unknown = (status || outcome->late) && (double)outcome->elements < 4 * first; /* by a limit */
+        const double off = fabs(outcome->shear_velocity - given.shear_velocity) / problem->shear_speed;
+        given.error_ex = outcome->error_ex + (unknown ? 2 : off);
+        given.updates = outcome->updates;
+        given.late = outcome->late;
+        *outcome = given;
+    }
+    if (!status && outcome->late) return RESTITUTE_TOLERANCE_NOT_REACHED;
     return status == RESTITUTE_ERROR_TOO_MUCH_WORK && outcome->walked > 0 ? RESTITUTE_TOLERANCE_NOT_REACHED : status;
 }

@@ -105,7 +105,7 @@ static void compare(const struct rst_problem *problem, const struct attempt *coa
             ? 0
             : (rst_share_of_change * fabs(fine->shear_velocity - coarse->shear_velocity) + rst_rounding) /
                       problem->shear_speed +
-                  rst_piece_part * rst_piece_roughness(problem, fine->halvings) + least +
+                  rst_piece_error(problem, fine->halvings) + least +
                   2 * problem->chi * left / problem->shear_speed; /* |S| <= F bounds the change of U' */
     if (stops && problem->mode == RST_NO_SLIP) { /* it sticks until it is at rest */
         outcome->error_ex += fabs(fine->shear_velocity) / problem->shear_speed;
