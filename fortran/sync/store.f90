@@ -44,8 +44,7 @@ module rst_store
 
   !> Records, pieces and room. (0:stages, arms): of the piece being solved, (0) is its start.
   type :: store_type
-    integer(ip) :: n_records, n_pieces
-    integer(ip) :: n_trials                                 !! pieces that may still be tried, kept or not
+    integer(ip) :: n_records, n_pieces, n_trials !! n_trials: pieces that may still be tried
     type(record_type), pointer, contiguous :: record(:)
     type(piece_type), pointer, contiguous :: piece(:)
     real(dp), pointer, contiguous :: corrective(:, :, :, :) !! (of_arm, 0:stages, arms, records): m_k, p_k for sigma = 1, for -1

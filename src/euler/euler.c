@@ -186,22 +186,19 @@ static void change(const struct rst_problem *problem, const struct run *a, const
     *ex = fabs(ex_of(problem, &a->state) - ex_of(problem, &b->state));
 }
 
-/* Estimated errors of the last of three levels, by two changes, since one may be small by
- * chance. */
-static void estimate(const struct rst_problem *problem, const struct run *level, double *ez, double *ex)
+/* The outcome is a run among three levels. Two changes estimate the error of the last level, since
+ * one may be small by chance; that of another run has its distance from it, too. */
+static void fill(const struct rst_problem *problem, const struct scout *scout, const struct run *level,
+                 const struct run *run, int64_t updates, struct rst_outcome *outcome)
 {
-    double before_ez, before_ex;
+    double error_ez, error_ex, before_ez, before_ex, off_ez, off_ex;
     change(problem, &level[1], &level[0], &before_ez, &before_ex);
-    change(problem, &level[2], &level[1], ez, ex);
-    *ez = estimate_slack * fmax(*ez, 0.5 * before_ez);
+    change(problem, &level[2], &level[1], &error_ez, &error_ex);
+    change(problem, &level[2], run, &off_ez, &off_ex);
+    error_ez = estimate_slack * fmax(error_ez, 0.5 * before_ez) + off_ez;
     /* the error of the normal motion reaches e_x too, even where the changes of e_x happen to
      * cancel */
-    *ex = fmax(*ez, estimate_slack * fmax(*ex, 0.5 * before_ex));
-}
-
-static void fill(const struct rst_problem *problem, const struct scout *scout, const struct run *run, double error_ez,
-                 double error_ex, int64_t updates, struct rst_outcome *outcome)
-{
+    error_ex = fmax(error_ez, estimate_slack * fmax(error_ex, 0.5 * before_ex) + off_ex);
     const struct euler_state *s = &run->state;
     const int sunk = s->phase == RST_SUNK;
     if (sunk) { /* the run stopped with these velocities still left; |dU'| <= 2 chi |dD'| */
@@ -246,14 +243,12 @@ static int finish(const struct rst_problem *problem, const struct rst_outcome *o
 
 static double step_for(const struct scout *scout, int64_t elements)
 {
-    const double step =
-        fmin(scout->time / (steps_per_element * (double)elements), stability_margin * scout->stable_step);
-    return scout->sinks ? 0.25 * step : step; /* the estimated time is that of the decay, not of the impact */
+    return fmin(scout->time / (steps_per_element * (double)elements), stability_margin * scout->stable_step);
 }
 
-static struct run finer(const struct run *run, int64_t times)
+static struct run refined(const struct run *run, double times)
 {
-    return (struct run){.elements = times * run->elements, .step = run->step / (double)times};
+    return (struct run){.elements = (int64_t)ceil(times * (double)run->elements), .step = run->step / times};
 }
 
 /* Refine elements and step together until the change between levels meets the tolerance. */
@@ -261,21 +256,20 @@ static int solve_refining(const struct rst_problem *problem, struct rst_workspac
                           int keep_ledger, struct rst_outcome *outcome, restitute_error *error)
 {
     struct run run[3] = {[2] = {.elements = elements_to_start(problem)}}, *now = &run[2];
-    double ez, ex;
     int64_t updates = 0;
     int found = 0, late = 0;
     now->step = step_for(scout, now->elements);
+    if (scout->sinks) now->step *= 0.25; /* the estimated time is that of the decay, not of the impact */
     int status = run_once(problem, workspace, scout, keep_ledger, &updates, now, error);
     for (int level = 1; !status; level++) {
         const double left = rst_time_left(problem);
         run[0] = run[1];
         run[1] = run[2];
-        *now = finer(&run[1], 2);
+        *now = refined(&run[1], 2);
         status = run_once(problem, workspace, scout, keep_ledger, &updates, now, error);
         if (status) break;
         if (level < 2) continue;
-        estimate(problem, run, &ez, &ex);
-        fill(problem, scout, now, ez, ex, updates, outcome);
+        fill(problem, scout, run, now, updates, outcome);
         found = 1;
         if (fmax(outcome->error_ez, outcome->error_ex) <= acceptance * problem->tolerance)
             return finish(problem, outcome, error);
@@ -307,9 +301,7 @@ static int choose_resolution(const struct rst_problem *problem, const struct sco
     run->step = problem->time_step;
     if (run->elements <= 0)
         run->elements = (int64_t)fmin(1e6, fmax(4, ceil(scout->time / run->step / steps_per_element)));
-    if (run->step <= 0)
-        run->step =
-            fmin(scout->time / (steps_per_element * (double)run->elements), stability_margin * scout->stable_step);
+    if (run->step <= 0) run->step = step_for(scout, run->elements);
     return RESTITUTE_OK;
 }
 
@@ -317,40 +309,27 @@ static int choose_resolution(const struct rst_problem *problem, const struct sco
  * run is not meaningful. */
 static const double smooth_part = 0.2;
 
-/* Whether coarser runs say little of the error of this one: it is coarser than the third level of a
- * refinement, the first that is ever accepted, or its step is nearly unstable. */
-static int is_coarse(const struct rst_problem *problem, const struct scout *scout, const struct run *run)
-{
-    const int64_t third = 4 * elements_to_start(problem);
-    return run->elements < third || run->step > step_for(scout, third) ||
-           2 * run->step >= smooth_part * scout->stable_step;
-}
-
-/* Elements or step prescribed: a run with them, and two others for the error estimate. The run is
- * the last of three levels or, if it is coarse, the first: its distance from the last is then
- * added. */
+/* Elements or step prescribed: the last of three levels. If it is coarser than the third level of a
+ * refinement, the first that is ever accepted, coarser runs say little of its error. It is then the
+ * first of three levels, and its distance from the last is added. */
 static int solve_prescribed(const struct rst_problem *problem, struct rst_workspace *workspace, const struct scout *scout,
                          int keep_ledger, struct rst_outcome *outcome, restitute_error *error)
 {
+    const int64_t third = 4 * elements_to_start(problem);
     struct run told = {0}, level[3];
-    double ez, ex, off_ez, off_ex;
     int64_t updates = 0;
     int status = choose_resolution(problem, scout, &told, error);
     if (!status) status = run_once(problem, workspace, scout, keep_ledger, &updates, &told, error);
     if (status) return status;
-    const int coarse = is_coarse(problem, scout, &told);
+    const int coarse = scout->sinks || told.elements < third || told.step > step_for(scout, third) ||
+                       2 * told.step >= smooth_part * scout->stable_step;
     level[coarse ? 0 : 2] = told;
-    for (int64_t times = 2; times <= 4 && !status; times *= 2) {
-        struct run *beside = &level[times == 2 ? 1 : 2 * coarse];
-        *beside = coarse ? finer(&told, times)
-                         : (struct run){.elements = (told.elements + times - 1) / times,
-                                        .step = (double)times * told.step};
-        status = run_once(problem, workspace, scout, 0, &updates, beside, error);
-    }
+    level[1] = refined(&told, coarse ? 2 : 0.5);
+    level[coarse ? 2 : 0] = refined(&level[1], coarse ? 2 : 0.5);
+    for (int k = 1; k <= 2 && !status; k++)
+        status = run_once(problem, workspace, scout, 0, &updates, &level[coarse ? k : 2 - k], error);
     if (status) return status;
-    estimate(problem, level, &ez, &ex);
-    change(problem, &told, &level[2], &off_ez, &off_ex);
-    fill(problem, scout, &told, ez + off_ez, fmax(ez + off_ez, ex + off_ex), updates, outcome);
+    fill(problem, scout, level, &told, updates, outcome);
     if (fmax(outcome->error_ez, outcome->error_ex) <= problem->tolerance) return rst_done(error);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
                       "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with the given elements and time_step",

@@ -64,7 +64,7 @@ struct sync_store {
 
 /* What rst_follow_normal and rst_follow_contact found. */
 enum { RST_REBOUNDS = 0, RST_STOPS = 1, RST_LACKS_ROOM = 2, RST_DOES_NOT_CONVERGE = 3 };
-enum { RST_SOLVED = 0, RST_STICKS_AGAIN = 1, RST_LACKS_PIECES = 2, RST_LACKS_TIME = 3 };
+enum { RST_SOLVED = 0, RST_STICKS_AGAIN = 1, RST_LACKS_PIECES = 2 };
 
 void rst_follow_normal(const struct sync_normal_control *control, struct sync_normal *normal, int64_t *found);
 void rst_follow_contact(const struct sync_normal *normal, const struct sync_contact *contact, struct sync_store *store,

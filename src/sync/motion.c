@@ -101,8 +101,8 @@ double rst_roughness(int halvings)
 
 double rst_piece_roughness(const struct rst_problem *problem, int halvings)
 {
-    const double roughness = rst_roughness(halvings);
-    return problem->elements > 0 ? roughness : fmin(roughness, rst_piece_part * problem->tolerance);
+    if (problem->elements > 0) return rst_roughness(halvings) * sqrt(fmax(1, problem->chi));
+    return fmin(rst_roughness(halvings), rst_piece_part * problem->tolerance);
 }
 
 static int64_t first_capacity(int halvings)
@@ -224,7 +224,8 @@ static double usual_stress(const struct sync_normal *normal)
 int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
                        int halvings, int64_t most, double *velocity, int64_t *found)
 {
-    const double scale = fmin(1, problem->shear_speed), roughness = rst_piece_roughness(problem, halvings);
+    const double scale = fmin(1, problem->shear_speed);
+    const double roughness = problem->elements > 0 ? rst_roughness(halvings) : rst_piece_roughness(problem, halvings);
     const double closeness = fmax(rst_least_closeness, rst_piece_closeness * roughness);
     const double swings = sqrt(fmax(1, problem->chi)); /* U' swings so much faster than D', and takes errors with it */
     const struct sync_contact contact = {.chi = problem->chi,
@@ -236,12 +237,10 @@ int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, con
                                          .mode = problem->mode};
     motion->store.n_trials = (int64_t)fmin(rst_trials_of_piece * (double)most, 1e18);
     for (int64_t capacity = 2 * run->normal.n_panels + rst_first_pieces;; capacity *= 2) {
-        const double left = rst_time_left(problem);
         if (lay_out_store(motion, capacity)) return 1;
         if (capacity > most) motion->store.capacity = most;
         rst_follow_contact(&run->normal, &contact, &motion->store, velocity, found);
         if (*found != RST_LACKS_PIECES || capacity >= most || motion->store.n_trials <= 0) return 0;
-        if (rst_lacks_time(problem, 2, left)) *found = RST_LACKS_TIME; /* twice the pieces, twice the time */
-        if (*found == RST_LACKS_TIME) return 0;
+        if (most < INT64_MAX && rst_time_left(problem) <= 0) return 0; /* a history has no limits */
     }
 }

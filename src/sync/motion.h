@@ -65,12 +65,12 @@ static inline const struct sync_panel *rst_last_panel(const struct rst_run *run)
  * lessen. */
 double rst_roughness(int halvings);
 
-/* What pieces of U' over psi may miss: not more than a part of the tolerance. */
+/* What pieces of U' over psi may miss: not more than a part of the tolerance. With given points
+ * what panels miss reaches U' sqrt(chi) times: chosen ones are narrower (rst_usual_chi). */
 double rst_piece_roughness(const struct rst_problem *problem, int halvings);
 
 /* The tangential motion on a run: U' at the end; RST_LACKS_PIECES: it wants more than
- * `most` of them, or too many trials; RST_LACKS_TIME: more than the time left. Nonzero: out of
- * memory. */
+ * `most` of them, many more trials, or more time than is left. Nonzero: out of memory. */
 int rst_motion_contact(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem,
                        int halvings, int64_t most, double *velocity, int64_t *found);
 

@@ -108,7 +108,6 @@ int rst_motion_record(const struct rst_problem *problem, struct rst_workspace *w
                     const struct rst_outcome *outcome, struct rst_history *history, restitute_error *error)
 {
     struct rst_motion *motion = rst_motion_of(workspace);
-    struct rst_problem timeless = *problem; /* a history has no limit of time */
     struct rst_walk walk;
     double velocity;
     int64_t p = 0, at = 0, found = RST_SOLVED;
@@ -125,8 +124,7 @@ int rst_motion_record(const struct rst_problem *problem, struct rst_workspace *w
             return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
         trace.walk = &walk;
     } else if (!slides) {
-        timeless.clock = NULL;
-        if (rst_motion_contact(motion, run, &timeless, outcome->halvings, INT64_MAX, &velocity, &found))
+        if (rst_motion_contact(motion, run, problem, outcome->halvings, INT64_MAX, &velocity, &found))
             return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for pieces");
         trace.store = &motion->store;
     }

@@ -8,8 +8,7 @@ static int walk_once(struct rst_motion *motion, const struct rst_problem *proble
 {
     const double n = (double)(parts * (run->normal.n_compression + 1));
     const double work = 2 * n * n * (1.0 + (double)problem->solid.n_terms);
-    if ((double)outcome->updates + work > (double)problem->max_updates)
-        return rst_sync_too_much_work(problem, rst_time_left(problem) <= 0, error);
+    if ((double)outcome->updates + work > (double)problem->max_updates) return rst_sync_too_much_work(problem, error);
     outcome->updates += (int64_t)work;
     if (rst_walk(motion, run, problem, 1, parts, walk))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
@@ -61,14 +60,14 @@ int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *probl
     const int64_t panels = run->normal.n_compression;
     struct rst_walk coarse, now;
     const double rest =
-        outcome->error_ez + rst_piece_error(problem, outcome->halvings) +
+        outcome->error_ez + rst_piece_part * rst_piece_roughness(problem, outcome->halvings) +
         (outcome->sunk ? 4 * problem->chi * run->normal.residual_speed / problem->shear_speed : 0); /* see compare */
-    struct rst_outcome given;
     double before = 0, extrapolated = 0;
     int walked = 1, regular = 0;
     const double first = rst_first_elements * cbrt(fmax(1, problem->chi)); /* U' swings faster than D' */
     int64_t parts = 1 + (int64_t)first / panels;
-    if (problem->elements > 0) parts = 1 + problem->elements / (2 * panels);
+    const int given = problem->elements > 0;
+    if (given) parts = 1 + problem->elements / (2 * panels);
     int status = walk_once(motion, problem, run, parts, outcome, &coarse, error);
     while (!status) {
         const double left = rst_time_left(problem);
@@ -82,23 +81,15 @@ int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *probl
         if (walked > 2)
             change = fmax(rst_share_by_chance / (regular > 1 ? 2 : 1) * change, fabs(extrapolated - last));
         before = plain;
-        note_walk(&now, parts, extrapolated, outcome);
-        outcome->error_ex = (rst_share_of_change * change + rst_rounding * (double)now.n) / problem->shear_speed + rest;
-        if (walked == 2) given = *outcome;
-        const int checked = walked > 2 && (double)now.n >= 4 * first; /* of chosen elements the third is */
-        if ((checked && (problem->elements > 0 || rst_meets(problem, outcome))) ||
+        if (!given || walked == 2) note_walk(&now, parts, extrapolated, outcome);
+        const double off = fabs(extrapolated - outcome->shear_velocity); /* of a given walk from finer ones */
+        const int coarser = given && (double)now.n < 4 * first; /* than any chosen one: e_x is unknown */
+        change = rst_share_of_change * change + rst_rounding * (double)now.n + off;
+        outcome->error_ex = change / problem->shear_speed + rest + 2 * coarser;
+        if ((walked > 2 && !coarser && (given || rst_meets(problem, outcome))) ||
             !can_double(problem, now.n, walked, left, outcome))
-            break;
+            return outcome->late ? RESTITUTE_TOLERANCE_NOT_REACHED : RESTITUTE_OK;
         coarse = now;
     }
-    if (problem->elements > 0 && outcome->walked > 0) { /* the finest walk says what the given one is worth */
-        const int unknown = (status || outcome->late) && (double)outcome->elements < 4 * first; /* by a limit */
-        const double off = fabs(outcome->shear_velocity - given.shear_velocity) / problem->shear_speed;
-        given.error_ex = outcome->error_ex + (unknown ? 2 : off);
-        given.updates = outcome->updates;
-        given.late = outcome->late;
-        *outcome = given;
-    }
-    if (!status && outcome->late) return RESTITUTE_TOLERANCE_NOT_REACHED;
     return status == RESTITUTE_ERROR_TOO_MUCH_WORK && outcome->walked > 0 ? RESTITUTE_TOLERANCE_NOT_REACHED : status;
 }

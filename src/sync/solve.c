@@ -42,8 +42,7 @@ static int attempt_contact(struct rst_motion *motion, const struct rst_problem *
                            &a->shear_velocity, &found))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for pieces");
     outcome->updates += motion->store.n_pieces * cost;
-    outcome->late = found == RST_LACKS_TIME;
-    if (outcome->late || found == RST_LACKS_PIECES) return rst_sync_too_much_work(problem, outcome->late, error);
+    if (found == RST_LACKS_PIECES) return rst_sync_too_much_work(problem, error);
     a->sticks_again = found == RST_STICKS_AGAIN;
     return RESTITUTE_OK;
 }
@@ -56,8 +55,7 @@ static int attempt(struct rst_motion *motion, const struct rst_problem *problem,
     const int64_t most = (problem->max_updates - outcome->updates) / cost;
     *a = (struct attempt){.run = rst_motion_run(motion, halvings, most), .halvings = halvings};
     if (!a->run) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for panels");
-    if (a->run->found == RST_LACKS_ROOM || a->run->normal.n_panels > most)
-        return rst_sync_too_much_work(problem, 0, error);
+    if (a->run->found == RST_LACKS_ROOM || a->run->normal.n_panels > most) return rst_sync_too_much_work(problem, error);
     outcome->updates += a->run->normal.n_panels * cost;
     a->fails = a->run->found == RST_DOES_NOT_CONVERGE;
     if (a->fails) return RESTITUTE_OK;
@@ -105,7 +103,7 @@ static void compare(const struct rst_problem *problem, const struct attempt *coa
             ? 0
             : (rst_share_of_change * fabs(fine->shear_velocity - coarse->shear_velocity) + rst_rounding) /
                       problem->shear_speed +
-                  rst_piece_error(problem, fine->halvings) + least +
+                  rst_piece_part * rst_piece_roughness(problem, fine->halvings) + least +
                   2 * problem->chi * left / problem->shear_speed; /* |S| <= F bounds the change of U' */
     if (stops && problem->mode == RST_NO_SLIP) { /* it sticks until it is at rest */
         outcome->error_ex += fabs(fine->shear_velocity) / problem->shear_speed;
@@ -174,10 +172,10 @@ static int refine_from(struct rst_motion *motion, const struct rst_problem *prob
     int known = 0, walks = 0, tried = 0;
     for (int halvings = first; halvings <= rst_most_halvings; halvings++) {
         const int late = rst_time_left(problem) <= 0;
-        if (late && walks) break;
-        outcome->late = late;
         const int status =
-            late ? rst_sync_too_much_work(problem, 1, error) : attempt(motion, problem, halvings, &now, outcome, error);
+            late ? rst_sync_too_much_work(problem, error) : attempt(motion, problem, halvings, &now, outcome, error);
+        if (late && walks) break;
+        outcome->late = rst_time_left(problem) <= 0;
         if (status == RESTITUTE_ERROR_TOO_MUCH_WORK && known >= 2 && !walks) return RESTITUTE_TOLERANCE_NOT_REACHED;
         if (status) return status;
         if (now.fails) continue;

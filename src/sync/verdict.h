@@ -14,23 +14,15 @@ static inline double rst_larger_error(const struct rst_outcome *outcome)
     return fmax(outcome->error_ez, outcome->error_ex);
 }
 
-/* Estimate of what pieces miss of U'. It swings sqrt(chi) times as fast as D' and takes what panels
- * miss with it: chosen panels are narrow enough (rst_usual_chi), given ones may not be. */
-static inline double rst_piece_error(const struct rst_problem *problem, int halvings)
-{
-    const double swings = problem->elements > 0 ? sqrt(fmax(1, problem->chi)) : 1;
-    return rst_piece_part * rst_piece_roughness(problem, halvings) * swings;
-}
-
 static inline int rst_meets(const struct rst_problem *problem, const struct rst_outcome *outcome)
 {
     return rst_larger_error(outcome) <= rst_acceptance * problem->tolerance;
 }
 
-static inline int rst_sync_too_much_work(const struct rst_problem *problem, int late, restitute_error *error)
+static inline int rst_sync_too_much_work(const struct rst_problem *problem, restitute_error *error)
 {
     return rst_report(error, RESTITUTE_ERROR_TOO_MUCH_WORK, "%s: too little for this impact",
-                      rst_spent(problem, late).text);
+                      rst_spent(problem, rst_time_left(problem) <= 0).text);
 }
 
 #endif
