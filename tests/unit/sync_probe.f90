@@ -117,6 +117,7 @@ contains
     normal%entry(1:stages, 1:n, 1:2) => entry_room
     store%n_records = 0
     store%n_pieces = 0
+    store%n_trials = huge(store%n_trials)
     store%record => record_room
     store%piece => piece_room
     store%corrective(1:of_arm, 0:stages, 1:n, 1:room) => corrective_room
