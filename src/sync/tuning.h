@@ -93,8 +93,8 @@ enum { rst_most_panels = 4096, rst_most_elements = 16384, rst_ledger_elements = 
 static const double rst_ledger_closeness = 0.003, rst_ledger_remark = 0.01;
 
 /* Room at first: for four times the panels of a run, and for pieces that events add. Where it is
- * too small, it is doubled. Trials for a piece that work allows in the mean: usual motions take 1.3.
- * A sphere of chi = 573 took 9, and 30 times max_work; now 6 times. Twice: 12 times */
+ * too small, it is doubled. Trials for a piece that work allows in the mean: usual motions take
+ * 1.3. A sphere of chi = 573 took 9, and 30 times max_work; now 6 times. Twice: 12 times */
 enum { rst_first_panels = 8, rst_first_pieces = 16, rst_trials_of_piece = 2 };
 
 /* Histories: a place on a panel is found to rounding, which takes 50 bisections. Largest force:

@@ -121,8 +121,8 @@ static void given_points_fall_back_to_the_finest_that_work(void **state)
     restitute_material_destroy(solid);
 }
 
-/* The sphere vibrates faster than so few elements can follow: coarser runs agree by chance. The true
- * values are those of both methods at 1e-6. */
+/* The sphere vibrates faster than so few elements can follow: coarser runs agree by chance. The
+ * true values are those of both methods at 1e-6. */
 static void estimates_of_given_elements_cover_the_error(void **state)
 {
     restitute_options sync = sync_to(0.00712), euler = to_tolerance(1e-2);
