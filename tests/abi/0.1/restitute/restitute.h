@@ -366,8 +366,9 @@ typedef struct restitute_options {
                                          48, 96, ... or 1536, the largest of them that is not above
                                          the given number, or 24; there are more where panels are
                                          halved. `cvode` takes up to 16384. For the estimates of a
-                                         coarse resolution finer runs are made, which take some
-                                         twenty times the work, or about that of a default call */
+                                         coarse resolution `euler` and `sync` make finer runs, which
+                                         take up to some twenty times the work (`euler`), or about
+                                         that of a default call (`sync`) */
     double time_step;               /**< in T (@ref restitute_impact) or s (@ref restitute_scene),
                                          in [1e-100, 1e100]; 0 (default): chosen. A step that cannot
                                          be stable is refused with the largest that is */
