@@ -39,9 +39,8 @@ static const int64_t most_events = 64, most_steps = 1000000;
 static const double usual_elements = 96, usual_tolerance = 1e-5, usual_power = 0.4;
 static const int64_t elements_of_log = 64;
 
-/* Above it no fewer elements are taken. A quarter of fewer is too coarse for narrow slip at the edge
- * (psi << 1), of a sphere that vibrates (chi > 4) or is damped, where three runs agreed by
- * chance. */
+/* Above it no fewer elements are taken. A quarter of fewer is too coarse for narrow slip at the
+ * edge (psi << 1) of a sphere that vibrates (chi > 4) or is damped: three runs agreed by chance. */
 static const double loosest = 2e-4;
 
 /* If the solid relaxes or damps more often than the first value in a compression, backward

@@ -126,10 +126,10 @@ static void stiff_corner_agrees_with_sync(void **state)
         }
 }
 
-/* Coarse elements agree by chance where slip is narrow (psi << 1). At large chi the sphere vibrates:
- * errors of time and of the normal velocity, at which gross slip ends, are larger in e_x (psi > 1).
- * These impacts of docs/records/extremes.md were off by 3 to 15 estimates, and by more than their
- * tolerances. */
+/* Coarse elements agree by chance where slip is narrow (psi << 1). At large chi the sphere
+ * vibrates: errors of time and of the normal velocity, at which gross slip ends, are larger in e_x
+ * (psi > 1). These impacts of docs/records/extremes.md were off by 3 to 15 estimates, and by more
+ * than their tolerances. */
 static void loose_tolerances_hold(void **state)
 {
     const double cases[][5] = {
