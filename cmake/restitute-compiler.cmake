@@ -130,3 +130,22 @@ function(restitute_limit_exports target)
     set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS "${RESTITUTE_EXPORT_MAP}")
   endif()
 endfunction()
+
+# restitute_library(<component>): what the libraries share, after their own links. The Fortran
+# compiler would add its run-time libraries.
+function(restitute_library component)
+  set(target restitute_${component})
+  add_library(restitute::${component} ALIAS ${target})
+  if(RESTITUTE_MATH_LIBRARY)
+    target_link_libraries(${target} PRIVATE m)
+  endif()
+  set_target_properties(
+    ${target}
+    PROPERTIES EXPORT_NAME ${component}
+               LINKER_LANGUAGE C
+               POSITION_INDEPENDENT_CODE ON
+               VERSION ${PROJECT_VERSION}
+               SOVERSION ${PROJECT_VERSION_MAJOR}
+               INSTALL_RPATH "$ORIGIN")
+  restitute_limit_exports(${target})
+endfunction()
