@@ -36,8 +36,9 @@ static inline double rst_gross_slip_work(const struct rst_problem *problem, doub
  * its end if it ends; slip at the edge after that is counted as viscous. */
 static inline struct rst_ledger rst_sunk_ledger(const struct rst_problem *problem, double shear_velocity)
 {
-    const double end = rst_never_sticks(problem, 0) ? 0 : rst_end_of_gross_slip(problem);
-    const double friction = problem->mode == RST_GROSS_SLIP ? rst_gross_slip_work(problem, end) : 0;
+    double friction = 0;
+    if (problem->mode == RST_GROSS_SLIP)
+        friction = rst_gross_slip_work(problem, rst_never_sticks(problem, 0) ? 0 : rst_end_of_gross_slip(problem));
     const double lost = problem->shear_speed * problem->shear_speed - shear_velocity * shear_velocity;
     if (problem->mode == RST_FRICTIONLESS) return (struct rst_ledger){.viscous_z = 1};
     return (struct rst_ledger){.viscous_z = 1, .friction_x = friction, .viscous_x = lost - friction};

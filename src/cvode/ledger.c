@@ -43,7 +43,7 @@ static int64_t count_inside(const struct run *run)
  * friction takes q^2/2 over the stiffness for the time in which f falls from q to 0. */
 static double kept(const struct rst_solid *s, const struct element_energy *e, double rate)
 {
-    const double time = fmax(1e-100, fabs(e->q) / rate); /* not 0, in an event or without q */
+    const double time = fmax(1e-100, rate > 1e-100 ? fabs(e->q) / rate : 0);
     double stiffness = s->g_inf + s->eta / time;
     for (int64_t k = 0; k < s->n_terms; k++)
         stiffness -= s->g[k] * s->tau[k] / time * expm1(-time / s->tau[k]);
@@ -61,7 +61,7 @@ static struct rst_ledger follow(const struct rst_solid *s, const struct element_
                                .viscous_x = 0.5 * part * time * (was->viscous_x + end->viscous_x)};
     double held = is->held_x;
     if (leaves) {
-        const double rate = (was->f - is->f) / time;
+        const double rate = time > 0 ? (was->f - is->f) / time : 0;
         const double before = slips ? kept(s, was, rate) : was->held_x, after = slips ? kept(s, is, rate) : is->held_x;
         spent.left_x = held = before + part * (after - before);
         spent.left_z = was->held_z + part * (is->held_z - was->held_z);

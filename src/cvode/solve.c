@@ -143,10 +143,10 @@ static int solve_elements(const struct run_setup *setup, int64_t n, struct cvode
     return status ? rst_report(error, status, "%s", run->text) : RESTITUTE_OK;
 }
 
-static int64_t first_elements(const struct rst_problem *problem)
+/* What a tolerance usually needs, but not less than the loosest. */
+static int64_t elements_for(const struct rst_problem *problem, double tolerance)
 {
-    if (problem->elements > 0) return problem->elements;
-    const double share = pow(usual_tolerance / fmin(loosest, problem->tolerance), usual_power);
+    const double share = pow(usual_tolerance / fmin(loosest, tolerance), usual_power);
     return (int64_t)fmin((double)most_elements, 4 * ceil(0.25 * usual_elements * vibration_of(problem) * share));
 }
 
@@ -162,8 +162,10 @@ static void compare(const struct run_setup *setup, const struct run *run, int64_
     const struct run *fine = &run[2];
     const double best = extrapolated(&run[1], fine), changed = fabs(best - extrapolated(&run[0], &run[1]));
     const double usual = usual_error * pow(fmax(1, setup->problem->chi), 1.5) * pow((double)n, -2.5);
+    /* fewer than are ever chosen may agree by chance: their error is of second order at least */
+    const double coarse = fmax(1, (double)elements_for(setup->problem, loosest) / (double)n);
     outcome->shear_velocity = best;
-    outcome->error_ex = share_of_change_ex * changed / setup->problem->shear_speed + usual +
+    outcome->error_ex = coarse * coarse * share_of_change_ex * changed / setup->problem->shear_speed + usual +
                         vibration_of(setup->problem) * outcome->error_ez;
     outcome->elements = n;
     outcome->spacing = outcome->max_contact_radius / (double)n;
@@ -268,7 +270,8 @@ static int start_refining(struct run_setup *setup, struct cvode_memory *memory, 
 static int refine(const struct rst_problem *problem, struct run_setup *setup, struct cvode_memory *memory,
                   struct rst_outcome *outcome, restitute_error *error)
 {
-    struct ladder ladder = {.wanted = first_elements(problem)};
+    const int64_t given = problem->elements;
+    struct ladder ladder = {.wanted = given > 0 ? given : elements_for(problem, problem->tolerance)};
     char obstacle[256] = "elements: no more allowed";
     if (ladder.wanted > most_elements)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "elements = %lld: the method cvode takes 4 to %lld",

@@ -251,15 +251,20 @@ static struct run refined(const struct run *run, double times)
     return (struct run){.elements = (int64_t)ceil(times * (double)run->elements), .step = run->step / times};
 }
 
+static struct run first_level(const struct rst_problem *problem, const struct scout *scout)
+{
+    const int64_t elements = elements_to_start(problem);
+    /* where it sinks, the estimated time is that of the decay, not of the impact */
+    return (struct run){.elements = elements, .step = (scout->sinks ? 0.25 : 1) * step_for(scout, elements)};
+}
+
 /* Refine elements and step together until the change between levels meets the tolerance. */
 static int solve_refining(const struct rst_problem *problem, struct rst_workspace *workspace, const struct scout *scout,
                           int keep_ledger, struct rst_outcome *outcome, restitute_error *error)
 {
-    struct run run[3] = {[2] = {.elements = elements_to_start(problem)}}, *now = &run[2];
+    struct run run[3] = {[2] = first_level(problem, scout)}, *now = &run[2];
     int64_t updates = 0;
     int found = 0, late = 0;
-    now->step = step_for(scout, now->elements);
-    if (scout->sinks) now->step *= 0.25; /* the estimated time is that of the decay, not of the impact */
     int status = run_once(problem, workspace, scout, keep_ledger, &updates, now, error);
     for (int level = 1; !status; level++) {
         const double left = rst_time_left(problem);
@@ -309,31 +314,39 @@ static int choose_resolution(const struct rst_problem *problem, const struct sco
  * run is not meaningful. */
 static const double smooth_part = 0.2;
 
-/* Elements or step prescribed: the last of three levels. If it is coarser than the third level of a
- * refinement, the first that is ever accepted, coarser runs say little of its error. It is then the
- * first of three levels, and its distance from the last is added. */
-static int solve_prescribed(const struct rst_problem *problem, struct rst_workspace *workspace, const struct scout *scout,
-                         int keep_ledger, struct rst_outcome *outcome, restitute_error *error)
+/* Elements or step prescribed: the last of three levels. Where it is coarser than the third level
+ * of a refinement, the first that is ever accepted, coarser runs say little of its error. Its
+ * distance from that third level is added then to the estimate of the latter. */
+static int solve_prescribed(const struct rst_problem *problem, struct rst_workspace *workspace,
+                            const struct scout *scout, int keep_ledger, struct rst_outcome *outcome,
+                            restitute_error *error)
 {
-    const int64_t third = 4 * elements_to_start(problem);
-    struct run told = {0}, level[3];
+    struct run given = {0}, level[3] = {first_level(problem, scout)};
     int64_t updates = 0;
-    int status = choose_resolution(problem, scout, &told, error);
-    if (!status) status = run_once(problem, workspace, scout, keep_ledger, &updates, &told, error);
+    int status = choose_resolution(problem, scout, &given, error);
+    if (!status) status = run_once(problem, workspace, scout, keep_ledger, &updates, &given, error);
     if (status) return status;
-    const int coarse = scout->sinks || told.elements < third || told.step > step_for(scout, third) ||
-                       2 * told.step >= smooth_part * scout->stable_step;
-    level[coarse ? 0 : 2] = told;
-    level[1] = refined(&told, coarse ? 2 : 0.5);
-    level[coarse ? 2 : 0] = refined(&level[1], coarse ? 2 : 0.5);
-    for (int k = 1; k <= 2 && !status; k++)
-        status = run_once(problem, workspace, scout, 0, &updates, &level[coarse ? k : 2 - k], error);
-    if (status) return status;
-    fill(problem, scout, level, &told, updates, outcome);
+    level[1] = refined(&level[0], 2);
+    level[2] = refined(&level[1], 2);
+    const int coarse = scout->sinks || given.elements < level[2].elements || given.step > level[2].step ||
+                       2 * given.step >= smooth_part * scout->stable_step;
+    if (!coarse) {
+        level[2] = given;
+        level[1] = refined(&given, 0.5);
+        level[0] = refined(&level[1], 0.5);
+    }
+    for (int k = 0; k < 2 + coarse && !status; k++)
+        status = run_once(problem, workspace, scout, 0, &updates, &level[k], error);
+    const int unknown = status == RESTITUTE_ERROR_TOO_MUCH_WORK || status == RESTITUTE_ERROR_CONVERGENCE;
+    if (status && !unknown) return status;
+    if (unknown) level[0] = level[1] = level[2] = given;
+    fill(problem, scout, level, &given, updates, outcome);
+    if (unknown) outcome->error_ez = 1, outcome->error_ex = 2; /* nothing was compared: their ranges */
     if (fmax(outcome->error_ez, outcome->error_ex) <= problem->tolerance) return rst_done(error);
     return rst_report(error, RESTITUTE_TOLERANCE_NOT_REACHED,
-                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with the given elements and time_step",
-                      problem->asked, outcome->error_ez, outcome->error_ex);
+                      "tolerance = %g: estimated errors %.2g (ez), %.2g (ex) with the given elements and time_step%s",
+                      problem->asked, outcome->error_ez, outcome->error_ex,
+                      unknown ? "; there is no run to compare with" : "");
 }
 
 static int euler_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,

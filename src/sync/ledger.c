@@ -40,7 +40,7 @@ int rst_motion_ledger(struct rst_motion *motion, const struct rst_problem *probl
         outcome->ledger = walk.ledger;
         parts *= 2;
     }
-    if (change > rst_ledger_remark)
+    if (change > rst_ledger_closeness)
         rst_remark(error, "ledger: twice the elements change its tangential parts by %.2g of the energy", change);
     return RESTITUTE_OK;
 }

@@ -66,7 +66,7 @@ static inline const struct sync_panel *rst_last_panel(const struct rst_run *run)
 double rst_roughness(int halvings);
 
 /* What pieces of U' over psi may miss: not more than a part of the tolerance. With given points
- * what panels miss reaches U' sqrt(chi) times: chosen ones are narrower (rst_usual_chi). */
+ * U' takes sqrt(chi) times what panels miss, which else are narrower (rst_usual_chi). */
 double rst_piece_roughness(const struct rst_problem *problem, int halvings);
 
 /* The tangential motion on a run: U' at the end; RST_LACKS_PIECES: it wants more than

@@ -83,9 +83,9 @@ int rst_walk_refining(struct rst_motion *motion, const struct rst_problem *probl
         before = plain;
         if (!given || walked == 2) note_walk(&now, parts, extrapolated, outcome);
         const double off = fabs(extrapolated - outcome->shear_velocity); /* of a given walk from finer ones */
-        const int coarser = given && (double)now.n < 4 * first; /* than any chosen one: e_x is unknown */
+        const int coarser = given && (double)now.n < 4 * first; /* than any chosen one: nothing is known */
         change = rst_share_of_change * change + rst_rounding * (double)now.n + off;
-        outcome->error_ex = change / problem->shear_speed + rest + 2 * coarser;
+        outcome->error_ex = coarser ? 2 : change / problem->shear_speed + rest;
         if ((walked > 2 && !coarser && (given || rst_meets(problem, outcome))) ||
             !can_double(problem, now.n, walked, left, outcome))
             return outcome->late ? RESTITUTE_TOLERANCE_NOT_REACHED : RESTITUTE_OK;

@@ -184,8 +184,6 @@ static void energy_is_accounted_for(void **state)
     }
 }
 
-/* The parts are those of sync within the residual of the broadest grid (0.015, docs/cvode.md);
- * narrower slip is told by a remark. */
 /* The last three slip in an annulus narrower than an element. In the last the solid relaxes
  * meanwhile: friction takes 0.25 then, and 0.64 with the 256 elements that sync begins with. */
 static void parts_of_the_ledger_are_those_of_sync(void **state)

@@ -150,10 +150,12 @@ class ContactLaw:
         places, required = self._places(states, rows), False
         if motions is None:
             motions, required = self.motions(len(places)), not self._given[1].get("frictionless")
-        elif getattr(motions, "dtype", None) != _library.array_type("contact_motion"):
+        elif (getattr(motions, "dtype", None) != _library.array_type("contact_motion")
+              or not motions.flags.c_contiguous):
             raise errors.DomainError("motions: must be an array that `motions` made")
         elif motions.shape != (len(places),):
-            raise errors.DomainError(f"motions: {len(motions)} are given, must be {len(places)}")
+            raise errors.DomainError(f"motions: have the shape {motions.shape}, must be "
+                                     f"{len(places)}")
         known = list(motions.dtype.fields or ())[1:]
         for name, value in members.items():
             if name not in known:

@@ -17,7 +17,7 @@ from restitute.impact import LIMITS
 from restitute.lookups import TableContact, TablePairs
 from restitute.materials import Material
 from restitute.scenes import Impacts
-from restitute.values import broadcast, fit_shape, numbers
+from restitute.values import broadcast, fit_shape, number, numbers
 
 __all__ = ["Table"]
 
@@ -145,11 +145,13 @@ class Table:
         struct, kept = _library.struct("table_data", "table"), []
         if not isinstance(data, dict):
             raise TypeError(f"data = {errors.shown(data)}: must be what Table.data gives")
-        for name, value in data.items():
-            if not isinstance(value, np.ndarray):
-                setattr(struct, name, value.encode() if isinstance(value, str) else value)
+        names = _library.members(struct)
+        for name in data.keys() & names:
+            value = data[name]
+            setattr(struct, name, value.encode() if isinstance(value, str) else
+                    type(names[name])(number(name, value)))
         for name, shape in _shapes(struct).items():
-            values = np.ascontiguousarray(data.get(name, ()), float)
+            values = np.ascontiguousarray(numbers(name, data.get(name, ())))
             if values.shape != shape:
                 raise errors.DomainError(f"data: {name} has the shape {values.shape}, must have "
                                          f"{shape}")

@@ -109,8 +109,10 @@ class Partial:
         self.leave()
 
     def remove(self):
-        """Leave nothing of it; killed meanwhile, one that is empty and needs no settings."""
-        os.ftruncate(self.descriptor, 0)
+        """Leave nothing of it. It is emptied first: a run that is killed meanwhile leaves no rows
+        without settings."""
+        with suppress(OSError):
+            os.ftruncate(self.descriptor, 0)
         for name in (self.settings_path, self.path):
             with suppress(FileNotFoundError):
                 os.unlink(name)

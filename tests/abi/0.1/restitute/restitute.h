@@ -365,10 +365,9 @@ typedef struct restitute_options {
                                          (default): chosen. For `sync` points of collocation: 24,
                                          48, 96, ... or 1536, the largest of them that is not above
                                          the given number, or 24; there are more where panels are
-                                         halved. `cvode` takes up to 16384. For the estimates of a
+                                         halved. `cvode` takes up to 16384. For the estimate of a
                                          coarse resolution `euler` and `sync` make finer runs, which
-                                         take up to some twenty times the work (`euler`), or about
-                                         that of a default call (`sync`) */
+                                         take about the work of a default call */
     double time_step;               /**< in T (@ref restitute_impact) or s (@ref restitute_scene),
                                          in [1e-100, 1e100]; 0 (default): chosen. A step that cannot
                                          be stable is refused with the largest that is */
@@ -478,9 +477,10 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, result)
 
 /** Where the energy went (docs/theory.md, section 8), as fractions of the energy that came in: of
  *  (1/2) m v_z0^2 in z, and of the energy of the contact point's tangential motion in x. Each
- *  account adds up to 1 - residual. The methods sync and cvode agree to 0.03 of that energy in how
- *  they divide it, to 0.15 where the solid relaxes within a thousandth of the contact and slip is
- *  narrow (psi < 0.02); sync says so in a remark. */
+ *  account adds up to 1 - residual. Where slip at the edge is narrow and the solid relaxes while the
+ *  edge passes it (psi < 0.02, a thousandth of the contact), friction, viscous and left may be off
+ *  by up to 0.5 while their sum holds; sync mostly says so in a remark. With psi below an eighth of
+ *  the tolerance slip is left out: then left has what friction takes. */
 typedef struct restitute_ledger {
     size_t struct_size;                  /**< set by @ref restitute_ledger_init */
     double rebound_z, viscous_z, left_z; /**< kinetic after; dissipated in contact; left in the
