@@ -134,6 +134,11 @@ static void estimates_of_given_elements_cover_the_error(void **state)
     CHECK_NEAR(s.ex, 0.33221, s.error_ex, "sync");
     CHECK_NEAR(e.ex, 0.25737, e.error_ex, "euler");
     CHECK(s.error_ex < 0.3 && e.error_ex < 0.3, "estimates %g, %g", s.error_ex, e.error_ex);
+    euler.max_work = 2e-3; /* none is left to compare with */
+    const struct solution alone = solve_impact(euler, impact_of(79.5495, 0.184036, 6.57322, 157.327));
+    CHECK(alone.status == RESTITUTE_TOLERANCE_NOT_REACHED && alone.result.ex == e.ex, "%d: %g", alone.status,
+          alone.result.ex);
+    CHECK(alone.result.error_ex == 2, "estimate %g", alone.result.error_ex);
 }
 
 /* The pieces that are kept here take 0.012 nominal seconds, those that are tried thirty times as
