@@ -186,8 +186,8 @@ static void change(const struct rst_problem *problem, const struct run *a, const
     *ex = fabs(ex_of(problem, &a->state) - ex_of(problem, &b->state));
 }
 
-/* The outcome is a run among three levels. Two changes estimate the error of the last level, since
- * one may be small by chance; that of another run has its distance from it, too. */
+/* The outcome of a run. Two changes estimate the error of the last of three levels, since one may
+ * be small by chance. To it the distance of the run from that level is added. */
 static void fill(const struct rst_problem *problem, const struct scout *scout, const struct run *level,
                  const struct run *run, int64_t updates, struct rst_outcome *outcome)
 {
