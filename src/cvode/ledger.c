@@ -134,7 +134,7 @@ int rst_cvode_ledger(const struct run_setup *setup, struct cvode_memory *memory,
     struct run_setup all = *setup;
     struct bookkeeper keeper = {.sum = {0}};
     struct run run = {.observe = post, .observer = &keeper};
-    /* so slow a rebound is an error of the run: this one, whose steps are others, may not end */
+    /* so slow a rebound is an error of the run; this one, of other steps, may not end */
     if (outcome->sunk || -outcome->velocity < setup->rest_speed) {
         outcome->ledger = rst_sunk_ledger(setup->problem, outcome->shear_velocity);
         return RESTITUTE_OK;
