@@ -1,6 +1,5 @@
-/* The energy ledger of the method cvode (theory.md, 8): the run is repeated. Dissipation and the
- * energy of elements that leave are added up by the trapezoidal rule over CVODE's steps and over
- * the elements that leave.
+/* The energy ledger of the method cvode (theory.md, 8): the run is repeated, and the balances of
+ * its elements are added up, by the trapezoidal rule over CVODE's steps and over the elements.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdlib.h>
