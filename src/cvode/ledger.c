@@ -12,9 +12,10 @@
  * pair did. */
 static const int64_t most_ledger_elements = 1024, fewest_ledger_elements = 256;
 
-/* Where the solid relaxes within a step, what friction and dashpots take is mistaken for each
+/* Steps of a ledger: so many over psi, as slip is as narrow, but not fewer and not more than these.
+ * Where the solid relaxes within a step, what friction and dashpots take is mistaken for each
  * other. */
-static const double fewest_ledger_steps = 5000;
+static const double ledger_steps = 150, fewest_ledger_steps = 5000, most_ledger_steps = 50000;
 
 /* The sums over elements, whose energies are those at the last step. */
 struct bookkeeper {
@@ -38,19 +39,26 @@ static int64_t count_inside(const struct run *run)
     return n;
 }
 
-/* What an element keeps that the edge passes with a stress q while its limit f falls at this rate:
- * friction takes q^2/2 over the stiffness for the time in which f falls from q to 0. */
-static double kept(const struct rst_solid *s, const struct element_energy *e, double rate)
+/* What becomes of an element that the edge passes with a stress q while its limit f falls at this
+ * rate. It slips by W for the time in which f falls from q to 0. Of its creep the instant that
+ * counts is taken: a third of the time for the work of friction, half of it for W. */
+static struct rst_ledger released(const struct rst_solid *s, const struct element_energy *e, double rate)
 {
     const double time = fmax(1e-100, rate > 1e-100 ? fabs(e->q) / rate : 0);
-    double stiffness = s->g_inf + s->eta / time;
-    for (int64_t k = 0; k < s->n_terms; k++)
-        stiffness -= s->g[k] * s->tau[k] / time * expm1(-time / s->tau[k]);
-    return e->held_x - 0.5 * e->q * e->q / stiffness;
+    double third = s->g_inf + 3 * s->eta / time, half = s->g_inf + 2 * s->eta / time, springs = s->g_inf;
+    for (int64_t k = 0; k < s->n_terms; k++) {
+        const double viscosity = s->g[k] * s->tau[k] / time;
+        third -= 3 * viscosity * expm1(-time / s->tau[k] / 3);
+        half -= 2 * viscosity * expm1(-time / s->tau[k] / 2);
+        springs += s->g[k] * exp(-time / s->tau[k]);
+    }
+    const double slip = e->q / half;
+    return (struct rst_ledger){.friction_x = 0.5 * e->q * e->q / third,
+                               .left_x = fmax(0, e->held_x - e->q * slip + 0.5 * springs * slip * slip)};
 }
 
 /* An element from one step to the next, or for that part of it until it leaves: the trapezoidal
- * rule in time. Where it slips, or is freed as it leaves, friction takes what its balance lacks. */
+ * rule in time. Where it slips, its balance tells what friction takes. */
 static struct rst_ledger follow(const struct rst_solid *s, const struct element_energy *was,
                                 const struct element_energy *is, double time, double shift, double part, int leaves,
                                 int slips)
@@ -60,14 +68,23 @@ static struct rst_ledger follow(const struct rst_solid *s, const struct element_
                                .viscous_x = 0.5 * part * time * (was->viscous_x + end->viscous_x)};
     double held = is->held_x;
     if (leaves) {
-        const double rate = time > 0 ? (was->f - is->f) / time : 0;
-        const double before = slips ? kept(s, was, rate) : was->held_x, after = slips ? kept(s, is, rate) : is->held_x;
-        spent.left_x = held = before + part * (after - before);
+        held = was->held_x + part * (is->held_x - was->held_x);
+        spent.left_x = held;
         spent.left_z = was->held_z + part * (is->held_z - was->held_z);
     }
-    if (slips && (leaves || was->motion != RST_ELEMENT_STICKS || is->motion != RST_ELEMENT_STICKS)) {
-        const double lost = 0.5 * part * (was->q + is->q) * shift - (held - was->held_x);
-        spent.viscous_x = fmin(spent.viscous_x, fmax(0, lost)); /* a step may be longer than a relaxation */
+    if (!slips) return spent;
+    const double work = 0.5 * part * (was->q + is->q) * shift;
+    if (leaves) {
+        const double rate = time > 0 ? (was->f - is->f) / time : 0;
+        const struct rst_ledger before = released(s, was, rate), after = released(s, is, rate);
+        const int ends = was->motion == RST_ELEMENT_STICKS && is->motion != RST_ELEMENT_STICKS;
+        spent.left_x = held = before.left_x + (ends ? 0 : part) * (after.left_x - before.left_x);
+        spent.friction_x = before.friction_x + (ends ? 0 : part) * (after.friction_x - before.friction_x);
+    }
+    if (leaves || was->motion != RST_ELEMENT_STICKS || is->motion != RST_ELEMENT_STICKS) {
+        const double lost = work - (held - was->held_x);
+        if (leaves && was->motion == RST_ELEMENT_STICKS) spent.viscous_x = lost - spent.friction_x;
+        spent.viscous_x = fmin(fmax(0, spent.viscous_x), fmax(0, lost)); /* a step may be longer than a relaxation */
         spent.friction_x = lost - spent.viscous_x;
     }
     return spent;
@@ -142,7 +159,8 @@ int rst_cvode_ledger(const struct run_setup *setup, struct cvode_memory *memory,
     if (all.n_nodes < fewest_ledger_elements) all.n_nodes = fewest_ledger_elements;
     all.radius = outcome->max_contact_radius;
     all.rebound = -outcome->velocity;
-    all.longest_step = outcome->contact_time / fewest_ledger_steps;
+    all.longest_step = outcome->contact_time /
+                       fmin(most_ledger_steps, fmax(fewest_ledger_steps, ledger_steps / setup->problem->shear_speed));
     all.budget = INT64_MAX;
     all.until = INFINITY;
     struct element_energy *const memory_of = calloc(2 * (size_t)all.n_nodes, sizeof *memory_of);

@@ -74,7 +74,7 @@ void rst_sync_weights_at(double x, double *weight);
 
 /* Twin of walk_type. */
 struct walk {
-    int64_t n, n_terms, capacity, start, end, mode, prescribed;
+    int64_t n, n_terms, capacity, start, end, mode, prescribed, divides;
     double chi, psi, g_inf, eta;
 };
 
@@ -93,9 +93,9 @@ struct walk_term {
     double g, decay, from_start, from_end, normal;
 };
 
-enum { walk_columns = 6, walk_lanes = 8 };
+enum { walk_columns = 8, walk_lanes = 8 };
 
-/* Sizes: level and shear 2 n + 1, memory (2 n + 1) n_terms, term n_terms + 1, body capacity
+/* Sizes: level and shear 2 n + 1, memory (2 n + 1) n_terms, term 2 (n_terms + 1), body capacity
  * walk_columns, stress 2 capacity (n_terms + 1). */
 void rst_follow_elements(const struct walk *walk, const double *g, const double *tau, const struct walk_level *level,
                          const double *memory, struct walk_shear *shear, struct walk_term *term, double *body,

@@ -34,7 +34,7 @@ int rst_motion_ledger(struct rst_motion *motion, const struct rst_problem *probl
     int64_t parts = 1 + (int64_t)least / panels / 2;
     for (int walks = 0; walks < 2 || (change > rst_ledger_closeness && parts * panels <= rst_most_ledger_elements);
          walks++) {
-        if (rst_walk(motion, run, problem, sticks, parts, &walk))
+        if (rst_walk(motion, run, problem, sticks, parts, 1, &walk))
             return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
         change = change_of(problem, walk.ledger, outcome->ledger);
         outcome->ledger = walk.ledger;

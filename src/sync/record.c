@@ -120,7 +120,7 @@ int rst_motion_record(const struct rst_problem *problem, struct rst_workspace *w
     struct trace trace = {.problem = problem, .normal = &run->normal};
     const int slides = rst_never_sticks(problem, -outcome->velocity);
     if (!slides && outcome->walked > 0) {
-        if (rst_walk(motion, run, problem, 1, outcome->walked, &walk))
+        if (rst_walk(motion, run, problem, 1, outcome->walked, 0, &walk))
             return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
         trace.walk = &walk;
     } else if (!slides) {

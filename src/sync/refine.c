@@ -10,7 +10,7 @@ static int walk_once(struct rst_motion *motion, const struct rst_problem *proble
     const double work = 2 * n * n * (1.0 + (double)problem->solid.n_terms);
     if ((double)outcome->updates + work > (double)problem->max_updates) return rst_sync_too_much_work(problem, error);
     outcome->updates += (int64_t)work;
-    if (rst_walk(motion, run, problem, 1, parts, walk))
+    if (rst_walk(motion, run, problem, 1, parts, 0, walk))
         return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
     return RESTITUTE_OK;
 }

@@ -30,7 +30,7 @@ static int lay_out(struct rst_motion *motion, int64_t n_panels, int64_t most, si
     const size_t capacity = (n + walk_lanes) / walk_lanes * walk_lanes;
     const size_t of_level = sizeof(struct walk_level) / sizeof(double), of_shear = sizeof(struct walk_shear) / sizeof(double);
     const size_t of_term = sizeof(struct walk_term) / sizeof(double);
-    const size_t count = marks + levels * (1 + of_level + of_shear + terms) + terms + (terms + 1) * of_term +
+    const size_t count = marks + levels * (1 + of_level + of_shear + terms) + terms + 2 * (terms + 1) * of_term +
                          capacity * (walk_columns + 2 * (terms + 1));
     if (rst_make_room(&motion->walk_room, &motion->walk_size, count)) return 1;
     r->mark = motion->walk_room;
@@ -40,7 +40,7 @@ static int lay_out(struct rst_motion *motion, int64_t n_panels, int64_t most, si
     r->memory = (double *)r->shear + levels * of_shear;
     r->left = r->memory + levels * terms;
     r->term = (struct walk_term *)(r->left + terms);
-    r->body = (double *)r->term + (terms + 1) * of_term;
+    r->body = (double *)r->term + 2 * (terms + 1) * of_term;
     r->stress = r->body + capacity * walk_columns;
     return 0;
 }
@@ -142,7 +142,7 @@ static void set_levels(const struct sync_normal *normal, const struct ladder *la
 }
 
 int rst_walk(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem, int sticks,
-             int64_t parts, struct rst_walk *walk)
+             int64_t parts, int divides, struct rst_walk *walk)
 {
     const struct rst_solid *s = &problem->solid;
     const struct sync_normal *normal = &run->normal;
@@ -159,6 +159,7 @@ int rst_walk(struct rst_motion *motion, const struct rst_run *run, const struct 
                            .start = sticks ? ladder.start : 2 * n,
                            .end = end,
                            .mode = problem->mode,
+                           .divides = divides,
                            .chi = problem->chi,
                            .psi = problem->shear_speed,
                            .g_inf = s->g_inf,

@@ -17,10 +17,10 @@ struct rst_walk {
     struct rst_ledger ledger;
 };
 
-/* Walk with `parts` elements in each panel of the compression; sticks: at some time elements do.
- * Nonzero: out of memory. */
+/* Walk with `parts` elements in each panel of the compression; sticks: at some time elements do;
+ * divides: for the parts of the ledger. Nonzero: out of memory. */
 int rst_walk(struct rst_motion *motion, const struct rst_run *run, const struct rst_problem *problem, int sticks,
-             int64_t parts, struct rst_walk *walk);
+             int64_t parts, int divides, struct rst_walk *walk);
 
 /* U' by more and more elements, on the panels of the run with `halvings` or of a coarser one. The
  * status may be TOLERANCE_NOT_REACHED if max_work is spent and there is a result. */

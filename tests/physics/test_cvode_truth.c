@@ -194,9 +194,11 @@ static void parts_of_the_ledger_are_those_of_sync(void **state)
                                {3, 2, 1, 1},
                                {39.387, 1.1373e-3, 26.778, 36.531},
                                {55.663, 2.198e-3, 0.02194, 1.257},
-                               {1.3211, 3.573e-3, 1.73e-3, 5.466e-3}};
+                               {1.3211, 3.573e-3, 1.73e-3, 5.466e-3},
+                               {15.728, 1.377e-3, 1.08e-4, 0},
+                               {81.716, 8.383e-3, 8.592e-4, 3.048e-3}};
     (void)state;
-    for (int i = 0; i < 7; i++) {
+    for (int i = 0; i < 9; i++) {
         const restitute_impact impact = impact_of(cases[i][0], cases[i][1], cases[i][2], cases[i][3]);
         const restitute_ledger l = solve_impact(cvode_to(1e-3), impact).ledger,
                                r = solve_impact(sync_to(1e-5), impact).ledger;

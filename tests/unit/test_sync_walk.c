@@ -30,7 +30,7 @@ static double body[(most_nodes + walk_lanes) * walk_columns];
 static void follow(const struct solid *s, const struct motion *m, const struct walk *walk, struct result *result)
 {
     static double stress[(most_nodes + walk_lanes) * (most_terms + 1) * 2];
-    struct walk_term term[most_terms + 1];
+    struct walk_term term[2 * (most_terms + 1)];
     for (size_t i = 0; i < sizeof body / sizeof *body; i++)
         body[i] = NAN;
     for (size_t i = 0; i < sizeof stress / sizeof *stress; i++)

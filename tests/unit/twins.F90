@@ -100,8 +100,8 @@ contains
                 c_loc(sync_store%corrective), c_loc(sync_store%room)])
     case (11)
       call put(c_sizeof(walk), [c_loc(walk%n), c_loc(walk%n_terms), c_loc(walk%capacity), c_loc(walk%start), &
-                c_loc(walk%end), c_loc(walk%mode), c_loc(walk%prescribed), c_loc(walk%chi), c_loc(walk%psi), &
-                c_loc(walk%g_inf), c_loc(walk%eta)])
+                c_loc(walk%end), c_loc(walk%mode), c_loc(walk%prescribed), c_loc(walk%divides), c_loc(walk%chi), &
+                c_loc(walk%psi), c_loc(walk%g_inf), c_loc(walk%eta)])
     case (12)
       call put(c_sizeof(walk_level), [c_loc(walk_level%step), c_loc(walk_level%radius), c_loc(walk_level%depth), &
                 c_loc(walk_level%velocity), c_loc(walk_level%force)])

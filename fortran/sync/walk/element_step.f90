@@ -21,13 +21,16 @@ module rst_sync_element_step
   use rst_tuning, only: largest_phase
   implicit none (type, external)
   private
-  public :: walk_type, walk_term_type, step_type, columns, c_weight, c_limit, c_trial, c_slip, c_force
-  public :: measure_step, relax, friction_force, move_elements, weighted_sum
+  public :: walk_type, walk_term_type, step_type, columns, c_weight, c_limit, c_trial, c_slip, c_force, c_stuck
+  public :: measure_step, relax, friction_force, move_elements, begin_to_slip, weighted_sum
 
+  integer(ip), parameter :: halvings = 8  !! of the time in which an element begins to slip
   integer(ip), parameter :: lanes = 8  !! partial sums, so that no result depends on the width of vectors
 
-  !> What an element has besides its stresses: weight in X, f, q for v1 = 0, kappa, q, v0.
-  integer(ip), parameter :: c_weight = 1, c_limit = 2, c_trial = 3, c_slip = 4, c_force = 5, c_start = 6, columns = 6
+  !> What an element has besides its stresses: weight in X, f, q for v1 = 0, kappa, q, v0; for the
+  !> ledger f and, if it stuck, q at the start of the step.
+  integer(ip), parameter :: c_weight = 1, c_limit = 2, c_trial = 3, c_slip = 4, c_force = 5, c_start = 6, &
+                            c_limit_before = 7, c_stuck = 8, columns = 8
 
   !> What is to be computed. Twin of `struct walk` in C.
   type, bind(c) :: walk_type
@@ -37,6 +40,7 @@ module rst_sync_element_step
     integer(ip) :: end         !! the last level: 2 n, or n for a sphere that stops in the solid
     integer(ip) :: mode        !! how friction acts
     integer(ip) :: prescribed  !! 1: U' is given from the level `start` on
+    integer(ip) :: divides     !! 1: slip begins within a step, for the parts of the ledger
     real(dp) :: chi, psi, g_inf, eta  !! psi: U' at first touch, 1 without slip or friction
   end type walk_type
 
@@ -107,6 +111,10 @@ contains
     real(dp), intent(inout), dimension(0:walk%capacity - 1, 0:walk%n_terms) :: stress, faded
     real(dp) :: normal, from_normal, from_shear
     integer(ip) :: i, k
+    if (walk%divides /= 0) then
+      body(0:step%top, c_limit_before) = body(0:step%top, c_limit)
+      body(0:step%top, c_stuck) = merge(body(0:step%top, c_force), huge(1.0_dp), abs(body(0:step%top, c_slip)) <= 0)
+    end if
     from_normal = merge(1.0_dp, 0.0_dp, gross)
     body(0:step%top, c_limit) = walk%eta*velocity
     body(0:step%top, c_trial) = 0
@@ -157,13 +165,13 @@ contains
     real(dp), intent(in) :: velocity(0:1)
     real(dp), intent(inout) :: body(0:walk%capacity - 1, columns), stress(0:walk%capacity - 1, 0:walk%n_terms)
     real(dp), intent(out) :: friction, work
-    real(dp) :: admittance, q, limit, kept, slip, impulse, frictions(lanes), works(lanes)
+    real(dp) :: admittance, q, limit, kept, slip, impulse, loss, frictions(lanes), works(lanes)
     integer(ip) :: first, i, k, l
     admittance = 1/(step%end_response + step%drop*step%start_response)
     frictions = 0
     works = 0
     do first = 0, step%top, lanes
-      !$omp simd private(i, q, limit, kept, slip, impulse)
+      !$omp simd private(i, q, limit, kept, slip, impulse, loss)
       do l = 1, lanes
         i = first + l - 1
         limit = body(i, c_limit)
@@ -171,9 +179,10 @@ contains
         slip = (q - min(max(q, -limit), limit))*admittance
         q = min(max(q, -limit), limit)
         kept = (1 - step%drop)*body(i, c_slip) + step%drop*slip
-        impulse = body(i, c_weight)*(body(i, c_force) + q)*step%stretch*step%h/2
-        frictions(l) = frictions(l) + impulse*(kept + slip)/2
-        works(l) = works(l) + impulse*(velocity(0) - kept + velocity(1) - slip)/2
+        impulse = body(i, c_weight)*step%stretch*step%h/6
+        loss = impulse*(body(i, c_force)*(2*kept + slip) + q*(kept + 2*slip))
+        frictions(l) = frictions(l) + loss
+        works(l) = works(l) + 1.5_dp*impulse*(body(i, c_force) + q)*(velocity(0) + velocity(1)) - loss
         body(i, c_force) = q
         body(i, c_slip) = slip
         body(i, c_start) = velocity(0) - kept
@@ -189,6 +198,49 @@ contains
       end do
     end do
   end subroutine move_elements
+
+  !> The element j sticks at the start of the step and slips at its end. This replaces what
+  !> move_elements made of its stresses and its slip, and gives how much more friction takes. Slip
+  !> begins where f and q, which are linear in the step, meet. From there the force that slip takes
+  !> away grows from 0 to `excess`. As arms may relax meanwhile, time is halved again and again
+  !> towards that instant.
+  pure subroutine begin_to_slip(walk, g, tau, step, j, term, brief, body, stress, more)
+    type(walk_type), intent(in) :: walk
+    real(dp), intent(in) :: g(walk%n_terms), tau(walk%n_terms)
+    type(step_type), intent(in) :: step
+    integer(ip), intent(in) :: j
+    type(walk_term_type), intent(in) :: term(0:walk%n_terms)
+    type(walk_term_type), intent(inout) :: brief(0:walk%n_terms)  !! room; `normal`: stress that slip takes away
+    real(dp), intent(inout) :: body(0:walk%capacity - 1, columns), stress(0:walk%capacity - 1, 0:walk%n_terms)
+    real(dp), intent(out) :: more
+    type(step_type) :: short
+    real(dp) :: slip, excess, part, limit(0:1), rate(0:1), at, to
+    integer(ip) :: i
+    slip = body(j, c_slip)
+    more = -(body(j, c_stuck)*(2*step%drop + 1) + body(j, c_force)*(step%drop + 2))*step%stretch*step%h/6*slip
+    excess = abs(slip)*(step%end_response + step%drop*step%start_response)
+    part = excess/(excess + max(body(j, c_limit_before) - sign(body(j, c_stuck), body(j, c_stuck)*slip), 0.0_dp))
+    limit = body(j, c_limit) + part*(body(j, c_limit_before) - body(j, c_limit))
+    brief%normal = 0
+    rate = 0
+    at = 0
+    to = 0.5_dp**halvings
+    do i = 0, halvings
+      call measure_step(walk, g, tau, 0_ip, (to - at)*part*step%h, 0.0_dp, brief, short)
+      limit = [limit(1), body(j, c_limit) + (1 - to)*part*(body(j, c_limit_before) - body(j, c_limit))]
+      rate(0) = (1 - short%drop)*rate(1)
+      rate(1) = (to*excess - sum(brief%decay*brief%normal) - short%start_response*rate(0)) &
+                /(short%end_response + short%drop*short%start_response)
+      rate(0) = rate(0) + short%drop*rate(1)
+      brief%normal = brief%decay*brief%normal + brief%from_start*rate(0) + brief%from_end*rate(1)
+      more = more + short%h/6*(limit(0)*(2*rate(0) + rate(1)) + limit(1)*(rate(0) + 2*rate(1)))
+      at = to
+      to = 2*to
+    end do
+    more = body(j, c_weight)*more
+    stress(j, :) = stress(j, :) + (step%drop*term%from_start + term%from_end)*slip - sign(1.0_dp, slip)*brief%normal
+    body(j, c_slip) = sign(rate(1), slip)
+  end subroutine begin_to_slip
 
   !> sum_i weight_i x_i of the elements in contact; others have no weight.
   pure function weighted_sum(walk, step, weight, x) result(total)

@@ -10,6 +10,10 @@
 !> known: each is the share of friction that is used, by the trapezoidal rule, times the known one.
 !> So full slip is exact.
 !>
+!> Whether friction or a dashpot takes what is lost depends on how the solid relaxes while an
+!> element slips, which may be less than a step. With walk%divides that is looked at where slip
+!> begins.
+!>
 !> To call follow_elements: fill walk, level(0:end), memory(n_terms, 0:end) and, with
 !> walk%prescribed, shear(start:end)%velocity. Steps are positive and psi is not negative. term,
 !> body and stress are room, whatever they contain. Results: shear(0:end) and the accounts of module
@@ -22,7 +26,8 @@ module rst_sync_walk
   use rst_ledger, only: ledger_type
   use rst_tuning, only: most_trials, walk_closeness
   use rst_sync_element_step, only: walk_type, walk_term_type, step_type, columns, c_weight, c_limit, c_trial, c_slip, &
-                                   c_force, measure_step, relax, friction_force, move_elements, weighted_sum
+                                   c_force, c_stuck, measure_step, relax, friction_force, move_elements, begin_to_slip, &
+                                   weighted_sum
   implicit none (type, external)
   private
   public :: walk_type, walk_term_type, walk_level_type, walk_shear_type, columns, follow_elements
@@ -58,7 +63,7 @@ contains
     type(walk_level_type), intent(in) :: level(0:2*walk%n)
     real(dp), intent(in) :: memory(walk%n_terms, 0:2*walk%n)  !! M_k at the levels
     type(walk_shear_type), intent(inout) :: shear(0:2*walk%n)
-    type(walk_term_type), intent(out) :: term(0:walk%n_terms)
+    type(walk_term_type), intent(out) :: term(0:walk%n_terms, 2)
     real(dp), intent(out) :: body(0:walk%capacity - 1, columns)
     real(dp), intent(out) :: stress(0:walk%capacity - 1, 0:walk%n_terms, 2)  !! y_k, and what is left of M_k at entry
     type(ledger_type), intent(out) :: ledger
@@ -75,18 +80,18 @@ contains
     end do
     stuck = 0
     do l = 0, walk%end - 1
-      call measure_step(walk, g, tau, l, level(l + 1)%step, stuck, term, step)
-      term(0)%normal = walk%g_inf*level(l)%depth
-      term(1:)%normal = memory(:, l)
+      call measure_step(walk, g, tau, l, level(l + 1)%step, stuck, term(:, 1), step)
+      term(0, 1)%normal = walk%g_inf*level(l)%depth
+      term(1:, 1)%normal = memory(:, l)
       if (l < walk%n) &
-        call enter_contact(walk, l, level, shear(l)%velocity, term, step, body, stress, account)
-      term(0)%normal = walk%g_inf*level(l + 1)%depth
-      term(1:)%normal = memory(:, l + 1)
-      call relax(walk, l < walk%start, level(l + 1)%velocity, term, step, body, stress(:, :, 1), stress(:, :, 2))
+        call enter_contact(walk, l, level, shear(l)%velocity, term(:, 1), step, body, stress, account)
+      term(0, 1)%normal = walk%g_inf*level(l + 1)%depth
+      term(1:, 1)%normal = memory(:, l + 1)
+      call relax(walk, l < walk%start, level(l + 1)%velocity, term(:, 1), step, body, stress(:, :, 1), stress(:, :, 2))
       call step_normal(walk, l, level, step, body, account)
       if (l >= walk%start) &
-        call step_shear(walk, l, level, shear(l:l + 1), term, step, body, stress(:, :, 1), account, stuck)
-      if (l >= walk%n) call leave_contact(walk, step%last, term, body(:, c_weight), stress, account)
+        call step_shear(walk, g, tau, l, level, shear(l:l + 1), term, step, body, stress(:, :, 1), account, stuck)
+      if (l >= walk%n) call leave_contact(walk, step%last, term(:, 1), body(:, c_weight), stress, account)
     end do
     call close_accounts(walk, level(min(walk%start, walk%end))%velocity, account, ledger)
   end subroutine follow_elements
@@ -150,18 +155,20 @@ contains
   end subroutine step_normal
 
   !> From level l to the next one in x.
-  pure subroutine step_shear(walk, l, level, shear, term, step, body, stress, account, stuck)
+  pure subroutine step_shear(walk, g, tau, l, level, shear, term, step, body, stress, account, stuck)
     type(walk_type), intent(in) :: walk
+    real(dp), intent(in) :: g(walk%n_terms), tau(walk%n_terms)
     integer(ip), intent(in) :: l
     type(walk_level_type), intent(in) :: level(0:2*walk%n)
     type(walk_shear_type), intent(inout) :: shear(0:1)
-    type(walk_term_type), intent(in) :: term(0:walk%n_terms)
+    type(walk_term_type), intent(inout) :: term(0:walk%n_terms, 2)  !! of the step, and room
     type(step_type), intent(in) :: step
     real(dp), intent(inout) :: body(0:walk%capacity - 1, columns), stress(0:walk%capacity - 1, 0:walk%n_terms)
     type(account_type), intent(inout) :: account
     real(dp), intent(out) :: stuck  !! weight of the elements that stick
     type(rim_type) :: rim
-    real(dp) :: share, friction, work
+    real(dp) :: share, friction, work, more
+    integer(ip) :: i
     body(0:step%top, c_trial) = body(0:step%top, c_trial) &
                                 + step%start_response*(shear(0)%velocity - (1 - step%drop)*body(0:step%top, c_slip))
     ! in the compression the rim enters with half a cell at the end of the step; in the restitution
@@ -176,7 +183,14 @@ contains
     if (walk%mode == mode_no_slip) body(0:step%top, c_limit) = huge(1.0_dp)
     if (walk%mode == mode_no_slip) rim%limit = huge(1.0_dp)
     call find_velocity(walk, level(l:l + 1), share, rim, step, body, shear, stuck)
-    call move_elements(walk, term, step, shear%velocity, body, stress, friction, work)
+    call move_elements(walk, term(:, 1), step, shear%velocity, body, stress, friction, work)
+    do i = 0, merge(step%last, -1_ip, walk%divides /= 0)
+      if (abs(body(i, c_stuck)) < huge(1.0_dp) .and. abs(body(i, c_slip)) > 0) then
+        call begin_to_slip(walk, g, tau, step, i, term(:, 1), term(:, 2), body, stress, more)
+        friction = friction + more
+        work = work - more
+      end if
+    end do
     account%friction = account%friction + friction
     account%work_x = account%work_x + work
   end subroutine step_shear
@@ -244,5 +258,7 @@ contains
     if (walk%n_terms > 0 .or. walk%eta > 0) return
     ledger%viscous_z = 0  ! not rounding
     ledger%viscous_x = 0
+    if (account%friction > 0) &
+      ledger%friction_x = max(4*mass_factor*walk%chi*(account%friction + account%work_x - account%left_x + slide), 0.0_dp)
   end subroutine close_accounts
 end module rst_sync_walk
