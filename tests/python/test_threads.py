@@ -12,7 +12,8 @@ import restitute
 
 @pytest.mark.component("contact", "table")
 def test_threads_that_share_all_get_the_bits_of_one():
-    rubber, ball = restitute.Material.standard_solid(1e6, 3e6, 300.0), dict(radius=1e-3, friction=0.3)
+    rubber = restitute.Material.standard_solid(1e6, 3e6, 300.0)
+    ball = dict(radius=1e-3, friction=0.3)
     table = restitute.Table.build(rubber, density=1200, **ball, speeds=(0.01, 1), tolerance=1e-3)
     law, speed = restitute.ContactLaw(rubber), np.geomspace(0.01, 0.1, 5000)
 
