@@ -76,11 +76,11 @@ static inline double rst_panel_slope(double y)
 static inline double rst_panel_y(double t)
 {
     const double lower = t < 0.5 ? t : 1 - t;
-    double y = 0, step = 1;
-    for (int i = 0; i < 60 && step > 0x1p-54; i++) {
+    double y = 0, step;
+    do {
         step = (lower - rst_panel_place(y)) / rst_panel_slope(y);
         y += step;
-    }
+    } while (step > 0x1p-54);
     return t < 0.5 ? y : 1 - y;
 }
 

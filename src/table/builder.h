@@ -71,7 +71,7 @@ struct rst_column {
 /* A column to be solved. */
 struct rst_task {
     struct rst_column column;
-    int may_fail; /* with TOO_MUCH_WORK in its status */
+    int may_fail; /* with TOO_MUCH_WORK or CONVERGENCE in its status: where there is a column on both sides */
     int status;
     restitute_error why;
 };

@@ -111,12 +111,6 @@ static int halve(struct rst_builder *b, int64_t n, struct rst_task *task, const 
     return rst_insert(b, solved, task, error);
 }
 
-/* A cell that begins at the onset of rebound. */
-static int is_beside_seam(const struct rst_builder *b, int64_t i)
-{
-    return i > 0 && b->column[i - 1].at >= b->column[i].at;
-}
-
 /* Columns in the middles of the cells whose error is larger than `least`. */
 static int64_t plan_halves(const struct rst_builder *b, double least, struct rst_task *task, int64_t *cell)
 {
@@ -125,8 +119,7 @@ static int64_t plan_halves(const struct rst_builder *b, double least, struct rst
         const struct rst_column *c = &b->column[i];
         if (!can_halve(b, i) || c->by_speed <= least) continue;
         const double at = 0.5 * (c->at + c[1].at);
-        task[n] = (struct rst_task){.column = {.speed = rst_axis_speed(at), .at = at},
-                                    .may_fail = is_beside_seam(b, i)};
+        task[n] = (struct rst_task){.column = {.speed = rst_axis_speed(at), .at = at}, .may_fail = 1};
         cell[n++] = i;
     }
     return n;

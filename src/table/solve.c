@@ -35,11 +35,7 @@ static int solve_column(const struct rst_builder *b, struct rst_column_solver *s
     if (!status) status = rst_column_normal(s, &c->normal, &t->why);
     c->impacts = 1;
     if (status < 0 || rst_column_rests(&b->contact, &c->normal) || b->contact.friction <= 0) return status;
-    if (isinf(b->contact.friction)) {
-        status = rst_panel_solve(&p, 0, c->g[0]);
-        c->g[0][1] = c->g[1][0] = c->g[0][0];
-        return status;
-    }
+    if (isinf(b->contact.friction)) return rst_panel_solve(&p, 0, c->g[0]); /* psi is 0 at all speeds */
     status = solve_panel(&p);
     p.panel = 1;
     return status ? status : solve_panel(&p);
@@ -59,7 +55,6 @@ void rst_column_destroy(struct rst_column *c)
 {
     free(c->g[0]);
     free(c->g[1]);
-    c->g[0] = c->g[1] = NULL;
 }
 
 static void turn(void *of, int thread, int64_t i)

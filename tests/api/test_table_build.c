@@ -334,6 +334,50 @@ static void few_impacts_give_an_honest_table(void **state)
     restitute_material_destroy(material);
 }
 
+/* What the tolerance takes, and a quarter for other rounding: columns and cells of psi that are not
+ * needed cost more, and cells of psi that are missing cannot be made up for by columns. */
+static void no_table_costs_more_than_it_needs(void **state)
+{
+    static const struct {
+        int elastic; /* a spring alone, with nu = 0; or the Kelvin-Voigt solid of ball_on */
+        double tolerance;
+        long long impacts;
+    } cases[] = {{1, 1e-5, 197}, {0, 1e-4, 634}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        restitute_material *material;
+        restitute_scene scene = ball_on(0, &material);
+        if (cases[i].elastic) {
+            restitute_material_destroy(material);
+            restitute_material_elastic(1e6, 0, &material, NULL);
+            scene.material = material;
+        }
+        restitute_table *table = table_of(&scene, 0.01, 10, cases[i].tolerance);
+        const long long impacts = describe(table).impacts;
+        CHECK(4 * impacts <= 5 * cases[i].impacts, "%zu: %lld impacts", i, impacts);
+        restitute_table_destroy(table);
+        restitute_material_destroy(material);
+    }
+}
+
+/* Where a sphere hardly rebounds, an impact may fail: its cell stays as wide as it is. */
+static void a_column_without_a_solution_is_left_out(void **state)
+{
+    restitute_material *material;
+    restitute_table *table = NULL;
+    restitute_error error;
+    restitute_table_options options = options_of(1);
+    (void)state;
+    restitute_scene scene = ball_on(1, &material);
+    restitute_material_destroy(material);
+    restitute_material_standard_solid(10, 1e6, 100 * sqrt(10), 0.5, &material, NULL);
+    scene.material = material;
+    options.max_impacts = 1000;
+    CHECK(restitute_table_build(&scene, &options, &table, &error) >= 0, "%s", error.message);
+    restitute_table_destroy(table);
+    restitute_material_destroy(material);
+}
+
 /* With chi = 50, where 20 s do not suffice, the build ends after a second or so. Ten: machines are
  * slow, and its last checks cannot be cut short. Sanitizers take up to ten times as long (16 s were
  * seen), and so does a build without limit. */
@@ -408,6 +452,15 @@ static void refusals(void **state)
     scene.friction = 0.3, scene.radius1 = NAN;
     refuse(&scene, &good, RESTITUTE_ERROR_DOMAIN, "radius1");
     refuse(NULL, &good, RESTITUTE_ERROR_NULL, "scene");
+    /* each impact is dearer than one of a table may be: no column is there, and so no table */
+    double tau[2000], g[2000];
+    restitute_material *series;
+    for (int i = 0; i < 2000; i++)
+        tau[i] = 1e-4 * pow(10, i / 500.0), g[i] = 500;
+    assert_int_equal(restitute_material_prony(1e6, 0, 2000, tau, g, 0.5, &series, NULL), RESTITUTE_OK);
+    scene.radius1 = 0.005, scene.material = series;
+    refuse(&scene, &good, RESTITUTE_ERROR_TOO_MUCH_WORK, "too much work");
+    restitute_material_destroy(series);
     restitute_error error;
     const restitute_material *const materials[] = {material};
     assert_int_equal(restitute_table_build_many(1, materials, &scene, &good, NULL, NULL, NULL, &error),
@@ -454,6 +507,8 @@ int main(void)
                                        cmocka_unit_test(what_sinks_may_slide_on),
                                        cmocka_unit_test(many_tables_at_once),
                                        cmocka_unit_test(few_impacts_give_an_honest_table),
+                                       cmocka_unit_test(a_column_without_a_solution_is_left_out),
+                                       cmocka_unit_test(no_table_costs_more_than_it_needs),
                                        cmocka_unit_test(a_limit_of_time_is_kept),
                                        cmocka_unit_test(refusals)};
     return cmocka_run_group_tests(tests, NULL, NULL);

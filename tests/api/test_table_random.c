@@ -76,37 +76,46 @@ static void standard_solid(void **state)
 }
 
 /* With its mass near the centre e_x of a sphere has a fold along all speeds, much narrower than the
- * checks lie apart. */
-static void narrow_fold(void **state)
+ * checks lie apart. How far off the second table is only checks where its nodes are doubtful find;
+ * with checks elsewhere it states three quarters of its error. */
+static const struct {
+    double g, viscosity, nu, inertia, speed[2], tolerance, most_psi;
+} folds[] = {{9.26e6, 10548, 0.1, 2e-8, {0.1, 1}, 1e-4, 10},
+             {26689322, 2400.5444, 0.311484, 4.1209533e-08, {0.044861, 2.0062}, 0.000488293, 4}};
+
+static void narrow_folds(void **state)
 {
-    restitute_material *material;
-    restitute_scene scene;
-    restitute_table_options options;
-    restitute_table_info info;
-    restitute_table *table;
-    restitute_error error;
     (void)state;
-    restitute_scene_init(&scene);
-    CHECK(restitute_material_standard_solid(1e6, 9.26e6, 10548, 0.1, &material, &error) == RESTITUTE_OK, "%s", error.message);
-    scene.material = material;
-    scene.radius1 = 0.005, scene.mass1 = 0.004, scene.inertia1 = 2e-8, scene.friction = 0.3;
-    restitute_table_options_init(&options);
-    options.speed[0] = 0.1, options.speed[1] = 1, options.tolerance = 1e-4;
-    const int status = restitute_table_build(&scene, &options, &table, &error);
-    restitute_table_info_init(&info);
-    assert_int_equal(restitute_table_describe(table, &info, NULL), RESTITUTE_OK);
-    CHECK(status == (info.error_ex > info.tolerance ? RESTITUTE_TOLERANCE_NOT_REACHED : RESTITUTE_OK), "%d, %g", status,
-          info.error_ex);
-    const struct extremes worst = compare(table, &info, scene, 10);
-    print_message("fold: verified %.1e %.1e, at %d random places %.1e %.1e\n", info.error_ez, info.error_ex, places, worst.ez,
-                  worst.ex);
-    restitute_table_destroy(table);
-    restitute_material_destroy(material);
+    for (size_t i = 0; i < sizeof folds / sizeof *folds; i++) {
+        restitute_material *material;
+        restitute_scene scene;
+        restitute_table_options options;
+        restitute_table *table;
+        restitute_error error;
+        restitute_scene_init(&scene);
+        CHECK(restitute_material_standard_solid(1e6, folds[i].g, folds[i].viscosity, folds[i].nu, &material, &error) ==
+                  RESTITUTE_OK,
+              "%s", error.message);
+        scene.material = material;
+        scene.radius1 = 0.005, scene.mass1 = 0.004, scene.inertia1 = folds[i].inertia, scene.friction = 0.3;
+        restitute_table_options_init(&options);
+        options.speed[0] = folds[i].speed[0], options.speed[1] = folds[i].speed[1];
+        options.tolerance = folds[i].tolerance;
+        const int status = restitute_table_build(&scene, &options, &table, &error);
+        const restitute_table_info info = describe(table);
+        CHECK(status == (info.error_ex > info.tolerance ? RESTITUTE_TOLERANCE_NOT_REACHED : RESTITUTE_OK), "%d, %g",
+              status, info.error_ex);
+        const struct extremes worst = compare(table, &info, scene, folds[i].most_psi);
+        print_message("fold: verified %.1e %.1e, at %d random places %.1e %.1e\n", info.error_ez, info.error_ex, places,
+                      worst.ez, worst.ex);
+        restitute_table_destroy(table);
+        restitute_material_destroy(material);
+    }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(kelvin_voigt), cmocka_unit_test(standard_solid),
-                                       cmocka_unit_test(narrow_fold)};
+                                       cmocka_unit_test(narrow_folds)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

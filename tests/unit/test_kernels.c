@@ -172,6 +172,24 @@ static void struct_twins_have_the_same_layout(void **state)
     CHECK_NEAR(x2[3], 0.35 * 0.35, 1e-16, "elements stand at the middle of their cells");
 }
 
+/* Some steps that do not change the rounded indentation are the turning point, ten thousand are a
+ * sphere that stands still. */
+static void a_sphere_that_stands_still_has_stalled(void **state)
+{
+    (void)state;
+    struct euler_state sphere;
+    const struct euler_scene scene = {
+        .g_inf = 1e-200, .step = 0.01, .spacing = 0.1, .capacity = 9, .mode = RST_NO_SLIP};
+    double x2[9], f[9], u[9], q[9], slip[9];
+    rst_start_impact(&scene, &sphere, x2);
+    sphere.depth = 0.5, sphere.velocity = 1e-30; /* the force, 1e-200, is too small to change it */
+    for (int i = 0; i < 2; i++) {
+        rst_advance_impact(&scene, NULL, NULL, NULL, NULL, x2, f, NULL, u, NULL, q, slip, NULL, NULL, i ? 10 : 9995,
+                           &sphere);
+        CHECK(sphere.phase == (i ? RST_STALLED : RST_COMPRESSION), "after %d steps", (int)sphere.n_steps);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -182,6 +200,7 @@ int main(void)
         cmocka_unit_test(scout_knows_the_largest_indentation),
         cmocka_unit_test(dimensionless_numbers_are_those_of_the_paper),
         cmocka_unit_test(far_terms_are_merged_and_near_ones_kept),
+        cmocka_unit_test(a_sphere_that_stands_still_has_stalled),
         cmocka_unit_test(struct_twins_have_the_same_layout),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
