@@ -40,8 +40,9 @@ static int64_t count_inside(const struct run *run)
 }
 
 /* What becomes of an element that the edge passes with a stress q while its limit f falls at this
- * rate. It slips by W for the time in which f falls from q to 0. Of its creep the instant that
- * counts is taken: a third of the time for the work of friction, half of it for W. */
+ * rate. It slips while f falls from q to 0. For the work of friction its creep after a third of
+ * that time counts, for the way it slips the creep after half of it: exact for a spring alone and
+ * for a dashpot alone. Friction is 8 % low at most for the two in parallel, 23 % in series. */
 static struct rst_ledger released(const struct rst_solid *s, const struct element_energy *e, double rate)
 {
     const double time = fmax(1e-100, rate > 1e-100 ? fabs(e->q) / rate : 0);
@@ -64,29 +65,25 @@ static struct rst_ledger follow(const struct rst_solid *s, const struct element_
                                 int slips)
 {
     const struct element_energy *const end = leaves ? was : is; /* beyond the edge it would run backward */
+    const int stuck = was->motion == RST_ELEMENT_STICKS, sticks = stuck && is->motion == RST_ELEMENT_STICKS;
     struct rst_ledger spent = {.viscous_z = 0.5 * part * time * (was->viscous_z + end->viscous_z),
-                               .viscous_x = 0.5 * part * time * (was->viscous_x + end->viscous_x)};
+                               .viscous_x = 0.5 * part * time * (was->viscous_x + end->viscous_x),
+                               .left_z = leaves ? was->held_z + part * (is->held_z - was->held_z) : 0};
     double held = is->held_x;
-    if (leaves) {
-        held = was->held_x + part * (is->held_x - was->held_x);
-        spent.left_x = held;
-        spent.left_z = was->held_z + part * (is->held_z - was->held_z);
-    }
-    if (!slips) return spent;
-    const double work = 0.5 * part * (was->q + is->q) * shift;
-    if (leaves) {
+    if (leaves && slips) {
         const double rate = time > 0 ? (was->f - is->f) / time : 0;
         const struct rst_ledger before = released(s, was, rate), after = released(s, is, rate);
-        const int ends = was->motion == RST_ELEMENT_STICKS && is->motion != RST_ELEMENT_STICKS;
-        spent.left_x = held = before.left_x + (ends ? 0 : part) * (after.left_x - before.left_x);
-        spent.friction_x = before.friction_x + (ends ? 0 : part) * (after.friction_x - before.friction_x);
-    }
-    if (leaves || was->motion != RST_ELEMENT_STICKS || is->motion != RST_ELEMENT_STICKS) {
-        const double lost = work - (held - was->held_x);
-        if (leaves && was->motion == RST_ELEMENT_STICKS) spent.viscous_x = lost - spent.friction_x;
-        spent.viscous_x = fmin(fmax(0, spent.viscous_x), fmax(0, lost)); /* a step may be longer than a relaxation */
-        spent.friction_x = lost - spent.viscous_x;
-    }
+        const double passed = stuck && !sticks ? 0 : part; /* what slips at the end has been released */
+        held = before.left_x + passed * (after.left_x - before.left_x);
+        spent.friction_x = before.friction_x + passed * (after.friction_x - before.friction_x);
+    } else if (leaves)
+        held = was->held_x + part * (is->held_x - was->held_x);
+    if (leaves) spent.left_x = held;
+    if (!slips || (!leaves && sticks)) return spent;
+    const double lost = 0.5 * part * (was->q + is->q) * shift - (held - was->held_x);
+    if (leaves && stuck) spent.viscous_x = lost - spent.friction_x;
+    spent.viscous_x = fmin(fmax(0, spent.viscous_x), fmax(0, lost)); /* a step may be longer than a relaxation */
+    spent.friction_x = lost - spent.viscous_x;
     return spent;
 }
 

@@ -136,8 +136,11 @@ static void set_levels(const struct sync_normal *normal, const struct ladder *la
         }
         set_level(normal, p, angle, terms, r->left, &r->level[l], &r->time[l], r->memory + (size_t)l * terms);
         if (l > n) r->level[l].radius = r->level[2 * n - l].radius;
-        /* not 0 by rounding: a spring that slips in no time would have no velocity */
-        r->level[l].step = l > 0 ? fmax(r->time[l] - r->time[l - 1], DBL_EPSILON * r->time[l]) : 0;
+        /* Not 0 by rounding, or less where the polynomial of time swings beside the turning point:
+         * what slips in no time would have any velocity. */
+        r->level[l].step = l > 0 ? r->time[l] - r->time[l - 1] : 0;
+        if (l > 0 && !(r->level[l].step > DBL_EPSILON * r->time[l]))
+            r->level[l].step = fmax(rst_least_step * r->level[l - 1].step, DBL_EPSILON * r->time[l]);
     }
 }
 

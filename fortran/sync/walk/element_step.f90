@@ -214,26 +214,26 @@ contains
     real(dp), intent(inout) :: body(0:walk%capacity - 1, columns), stress(0:walk%capacity - 1, 0:walk%n_terms)
     real(dp), intent(out) :: more
     type(step_type) :: short
-    real(dp) :: slip, excess, part, limit(0:1), rate(0:1), at, to
+    real(dp) :: slip, excess, part, fall, rate(0:1), at, to
     integer(ip) :: i
     slip = body(j, c_slip)
     more = -(body(j, c_stuck)*(2*step%drop + 1) + body(j, c_force)*(step%drop + 2))*step%stretch*step%h/6*slip
     excess = abs(slip)*(step%end_response + step%drop*step%start_response)
     part = excess/(excess + max(body(j, c_limit_before) - sign(body(j, c_stuck), body(j, c_stuck)*slip), 0.0_dp))
-    limit = body(j, c_limit) + part*(body(j, c_limit_before) - body(j, c_limit))
+    fall = part*(body(j, c_limit_before) - body(j, c_limit))
     brief%normal = 0
     rate = 0
     at = 0
     to = 0.5_dp**halvings
     do i = 0, halvings
       call measure_step(walk, g, tau, 0_ip, (to - at)*part*step%h, 0.0_dp, brief, short)
-      limit = [limit(1), body(j, c_limit) + (1 - to)*part*(body(j, c_limit_before) - body(j, c_limit))]
       rate(0) = (1 - short%drop)*rate(1)
       rate(1) = (to*excess - sum(brief%decay*brief%normal) - short%start_response*rate(0)) &
                 /(short%end_response + short%drop*short%start_response)
       rate(0) = rate(0) + short%drop*rate(1)
       brief%normal = brief%decay*brief%normal + brief%from_start*rate(0) + brief%from_end*rate(1)
-      more = more + short%h/6*(limit(0)*(2*rate(0) + rate(1)) + limit(1)*(rate(0) + 2*rate(1)))
+      more = more + short%h/6*((body(j, c_limit) + (1 - at)*fall)*(2*rate(0) + rate(1)) &
+                               + (body(j, c_limit) + (1 - to)*fall)*(rate(0) + 2*rate(1)))
       at = to
       to = 2*to
     end do

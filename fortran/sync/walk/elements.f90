@@ -10,9 +10,7 @@
 !> known: each is the share of friction that is used, by the trapezoidal rule, times the known one.
 !> So full slip is exact.
 !>
-!> Whether friction or a dashpot takes what is lost depends on how the solid relaxes while an
-!> element slips, which may be less than a step. With walk%divides that is looked at where slip
-!> begins.
+!> With walk%divides slip begins within a step, where the ledger needs it.
 !>
 !> To call follow_elements: fill walk, level(0:end), memory(n_terms, 0:end) and, with
 !> walk%prescribed, shear(start:end)%velocity. Steps are positive and psi is not negative. term,
@@ -113,6 +111,7 @@ contains
     body(j, c_weight) = (level(j + 1)%radius - level(max(j - 1, 0_ip))%radius)/2
     body(j, c_slip) = velocity - own
     body(j, c_force) = step%viscous*own
+    body(j, c_limit) = step%viscous*level(j)%velocity
     stress(j, :, 1) = 0
     stress(j, :, 2) = term%normal
     account%force_z = account%force_z + body(j, c_weight)*step%viscous*level(j)%velocity
@@ -247,18 +246,19 @@ contains
     real(dp), intent(in) :: velocity
     type(account_type), intent(in) :: account
     type(ledger_type), intent(out) :: ledger
-    real(dp) :: slide
+    real(dp) :: slide, friction
+    logical :: elastic
     slide = (walk%psi - 2*walk%chi + (2*walk%chi - 1)*(1 + velocity)/2)*(1 - velocity)/mass_factor
+    elastic = walk%n_terms == 0 .and. walk%eta <= 0
+    friction = account%friction
+    if (elastic .and. friction > 0) friction = friction + account%work_x - account%left_x
     ledger%left_z = 2*mass_factor*account%left_z
     ledger%viscous_z = 2*mass_factor*max(account%work_z - account%left_z, 0.0_dp)
-    ledger%friction_x = 4*mass_factor*walk%chi*max(account%friction + slide, 0.0_dp)
+    ledger%friction_x = 4*mass_factor*walk%chi*max(friction + slide, 0.0_dp)
     ledger%left_x = 4*mass_factor*walk%chi*account%left_x
     ledger%viscous_x = 4*mass_factor*walk%chi*max(account%work_x - account%left_x, 0.0_dp)
     if (walk%mode == mode_frictionless) ledger = ledger_type(ledger%viscous_z, ledger%left_z, 0.0_dp, 0.0_dp, 0.0_dp)
-    if (walk%n_terms > 0 .or. walk%eta > 0) return
-    ledger%viscous_z = 0  ! not rounding
-    ledger%viscous_x = 0
-    if (account%friction > 0) &
-      ledger%friction_x = max(4*mass_factor*walk%chi*(account%friction + account%work_x - account%left_x + slide), 0.0_dp)
+    if (elastic) ledger%viscous_z = 0  ! not rounding
+    if (elastic) ledger%viscous_x = 0
   end subroutine close_accounts
 end module rst_sync_walk
