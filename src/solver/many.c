@@ -2,16 +2,19 @@
  * next case would compute itself with the same bits. So the results do not depend on the number of
  * threads or on the order of the cases.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <fenv.h>
 #include <stdlib.h>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
+#include "base/parallel.h"
 #include "base/sized.h"
 #include "base/status.h"
 #include "solver/solver.h"
+
+/* The data of one thread: a solver, and the case that it would report to the caller. */
+struct worker {
+    restitute_solver *solver;
+    size_t index;
+    restitute_error error; /* of that case; its status is 0 as long as there was no remark */
+};
 
 /* One of the two arrays of cases is there. */
 struct batch {
@@ -20,13 +23,7 @@ struct batch {
     const restitute_scene *scenes;
     restitute_result *results;
     int *statuses;
-};
-
-/* The data of one thread: a solver, and the case that it would report to the caller. */
-struct worker {
-    restitute_solver *solver;
-    size_t index;
-    restitute_error error; /* of that case; its status is 0 as long as there was no remark */
+    struct worker *workers; /* one a thread */
 };
 
 /* Failures come before remarks, then the lower index. */
@@ -40,8 +37,11 @@ static void note(struct worker *worker, size_t index, const restitute_error *err
     worker->error = *error;
 }
 
-static void solve_case(const struct batch *batch, size_t i, struct worker *worker)
+static void solve_case(void *of, int thread, int64_t index)
 {
+    const struct batch *const batch = of;
+    struct worker *const worker = &batch->workers[thread];
+    const size_t i = (size_t)index;
     restitute_error error;
     restitute_result *result = batch->results ? rst_at(batch->results, i) : NULL;
     error.status = batch->scenes
@@ -49,53 +49,6 @@ static void solve_case(const struct batch *batch, size_t i, struct worker *worke
                        : restitute_solve(worker->solver, rst_at(batch->impacts, i), result, NULL, NULL, &error);
     if (batch->statuses) batch->statuses[i] = error.status;
     if (error.status != RESTITUTE_OK) note(worker, i, &error);
-}
-
-#ifdef _OPENMP
-/* Threads of a pool keep the rounding mode and the treatment of subnormal numbers that were set
- * when they started. During the call they take those of the caller. Otherwise a result would depend
- * on the thread that computes it. */
-static void solve_in_parallel(const struct batch *batch, struct worker *workers, int threads)
-{
-    fenv_t callers;
-    fegetenv(&callers);
-#pragma omp parallel num_threads(threads)
-    {
-        fenv_t own;
-        fegetenv(&own);
-        fesetenv(&callers);
-#pragma omp for schedule(dynamic)
-        for (size_t i = 0; i < batch->n; i++)
-            solve_case(batch, i, &workers[omp_get_thread_num()]);
-        fesetenv(&own);
-    }
-}
-#endif
-
-static void solve_all(const struct batch *batch, struct worker *workers, int threads)
-{
-#ifdef _OPENMP
-    if (threads > 1) {
-        solve_in_parallel(batch, workers, threads);
-        return;
-    }
-#endif
-    (void)threads;
-    for (size_t i = 0; i < batch->n; i++)
-        solve_case(batch, i, &workers[0]);
-}
-
-/* How many threads there will be: never more than cases. */
-static int threads_for(size_t n, int wanted)
-{
-    int threads = 1;
-#ifdef _OPENMP
-    threads = wanted > 0 ? wanted : omp_get_max_threads();
-#else
-    (void)wanted;
-#endif
-    if ((size_t)threads > n) threads = n > 0 ? (int)n : 1;
-    return threads;
 }
 
 static int create_workers(const restitute_options *options, int threads, struct worker *workers, restitute_error *error)
@@ -109,8 +62,9 @@ static int create_workers(const restitute_options *options, int threads, struct 
 }
 
 /* The case that is reported to the caller. */
-static int report_first(const struct batch *batch, const struct worker *workers, int threads, restitute_error *error)
+static int report_first(const struct batch *batch, int threads, restitute_error *error)
 {
+    const struct worker *const workers = batch->workers;
     struct worker first = workers[0];
     for (int i = 1; i < threads; i++)
         if (workers[i].error.status != RESTITUTE_OK) note(&first, workers[i].index, &workers[i].error);
@@ -128,19 +82,19 @@ static int check_batch(const struct batch *batch, restitute_error *error)
     return status;
 }
 
-static int solve_batch(const struct batch *batch, const restitute_options *options, restitute_error *error)
+static int solve_batch(struct batch *batch, const restitute_options *options, restitute_error *error)
 {
     restitute_options chosen;
     int status = rst_take_options(options, &chosen, error);
     if (!status) status = check_batch(batch, error);
     if (status) return status;
-    const int threads = threads_for(batch->n, chosen.threads);
-    struct worker *workers = calloc((size_t)threads, sizeof *workers);
+    const int threads = rst_threads(chosen.threads, (int64_t)batch->n);
+    struct worker *const workers = batch->workers = calloc((size_t)threads, sizeof *workers);
     if (!workers) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %d threads", threads);
     status = create_workers(&chosen, threads, workers, error);
     if (!status) {
-        solve_all(batch, workers, threads);
-        status = report_first(batch, workers, threads, error);
+        rst_loop(threads, (int64_t)batch->n, solve_case, batch);
+        status = report_first(batch, threads, error);
     }
     for (int i = 0; i < threads; i++)
         restitute_solver_destroy(workers[i].solver);
@@ -151,7 +105,7 @@ static int solve_batch(const struct batch *batch, const restitute_options *optio
 int restitute_solve_many(size_t n, const restitute_impact *impacts, const restitute_options *options,
                          restitute_result *results, int *statuses, restitute_error *error)
 {
-    const struct batch batch = {.n = n, .impacts = impacts, .results = results, .statuses = statuses};
+    struct batch batch = {.n = n, .impacts = impacts, .results = results, .statuses = statuses};
     if (n > 0 && !impacts) return rst_report(error, RESTITUTE_ERROR_NULL, "impacts is NULL");
     return solve_batch(&batch, options, error);
 }
@@ -159,7 +113,7 @@ int restitute_solve_many(size_t n, const restitute_impact *impacts, const restit
 int restitute_solve_scene_many(size_t n, const restitute_scene *scenes, const restitute_options *options,
                                restitute_result *results, int *statuses, restitute_error *error)
 {
-    const struct batch batch = {.n = n, .scenes = scenes, .results = results, .statuses = statuses};
+    struct batch batch = {.n = n, .scenes = scenes, .results = results, .statuses = statuses};
     if (n > 0 && !scenes) return rst_report(error, RESTITUTE_ERROR_NULL, "scenes is NULL");
     return solve_batch(&batch, options, error);
 }

@@ -3,8 +3,16 @@
 #include "table/builder.h"
 
 #include <stdlib.h>
+#include <time.h>
 
 #include "base/window.h"
+
+double rst_table_clock(void)
+{
+    struct timespec t = {0};
+    timespec_get(&t, TIME_UTC);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
 
 void restitute_table_options_init_sized(restitute_table_options *options, size_t size)
 {
@@ -159,7 +167,7 @@ static int create(const restitute_scene *scene, const restitute_table_options *o
     if (!rst_has_psi(&b->contact)) b->first[0] = b->first[1] = 1;
     if (rst_share(chi) <= 0) b->first[1] = 1;
     memcpy(b->cells, b->first, sizeof b->cells);
-    b->threads = rst_table_threads(threads, rst_most_speeds);
+    b->threads = rst_threads(threads, rst_most_speeds);
     b->solver = calloc((size_t)b->threads, sizeof *b->solver);
     if (!b->solver) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for solvers");
     for (int i = 0; i < b->threads; i++)

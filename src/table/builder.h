@@ -9,6 +9,7 @@
 #ifndef RST_TABLE_BUILDER_H
 #define RST_TABLE_BUILDER_H
 
+#include "base/parallel.h"
 #include "table/column.h"
 
 /* Constants of the build, measured with the target table-campaign (docs/records/table.md). */
@@ -153,19 +154,8 @@ int rst_make_table(const struct rst_builder *b, restitute_table **table, restitu
  * large ones (verify.c). */
 int rst_verify(struct rst_builder *b, const restitute_table *table, int round, int *missed, restitute_error *error);
 
-/* ---- loops whose turns do not depend on each other (parallel.c) */
-
-/* How many threads take n turns; threads as in restitute_table_options, 0: all. */
-int rst_table_threads(int threads, int64_t n);
-
-/* Turns 0 to n - 1, by rst_table_threads(threads, n) threads; `thread` counts them from 0. */
-void rst_table_loop(int threads, int64_t n, void (*turn)(void *of, int thread, int64_t i), void *of);
-
-/* Time of day, in s. */
+/* Time of day, in s (builder.c). */
 double rst_table_clock(void);
-
-/* A lock for one thread at a time. */
-void rst_table_one_at_a_time(void (*act)(void *of), void *of);
 
 /* ---- all of it */
 

@@ -53,6 +53,14 @@ static void tell(void *of)
     if (w->progress) w->progress(w->data, w->done, w->count);
 }
 
+static void one_at_a_time(void (*act)(void *of), void *of)
+{
+#ifdef _OPENMP
+#pragma omp critical(rst_table_one_at_a_time)
+#endif
+    act(of);
+}
+
 static void turn(void *of, int thread, int64_t k)
 {
     struct work *w = of;
@@ -62,7 +70,7 @@ static void turn(void *of, int thread, int64_t k)
     size_t i, j;
     (void)thread;
     job->work = w;
-    rst_table_one_at_a_time(ask, job);
+    one_at_a_time(ask, job);
     if (!job->begins) return;
     pair_of((size_t)k, &i, &j);
     scene.material = w->materials[i];
@@ -74,7 +82,7 @@ static void turn(void *of, int thread, int64_t k)
     }
     if (job->status >= 0) job->status = rst_build(&scene, w->options, 1, &job->table, &job->why);
     restitute_material_destroy(unlike);
-    rst_table_one_at_a_time(tell, job);
+    one_at_a_time(tell, job);
 }
 
 /* The first failure, else the first remark. */
@@ -116,7 +124,7 @@ int restitute_table_build_many(size_t count, const restitute_material *const *ma
     w.failed = w.count;
     w.job = calloc(w.count, sizeof *w.job);
     if (!w.job) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for %zu tables", w.count);
-    rst_table_loop(own.threads, (int64_t)w.count, turn, &w);
+    rst_loop(own.threads, (int64_t)w.count, turn, &w);
     status = finish(&w, tables, error);
     free(w.job);
     return status;

@@ -74,7 +74,7 @@ int64_t rst_cost(const struct rst_builder *b, int64_t n)
 int rst_solve_tasks(struct rst_builder *b, int64_t n, struct rst_task *task, restitute_error *error)
 {
     struct work w = {b, task};
-    rst_table_loop(b->threads, n, turn, &w);
+    rst_loop(b->threads, n, turn, &w);
     int status = RESTITUTE_OK;
     for (int64_t i = n - 1; i >= 0; i--) {
         b->impacts += task[i].column.impacts;

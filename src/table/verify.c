@@ -173,7 +173,7 @@ static int look(struct rst_builder *b, const restitute_table *table, int round, 
     if (!w.check) return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for the checks");
     const int64_t n = plan(b, table, round, least, w.check);
     int status = RESTITUTE_OK;
-    rst_table_loop(b->threads, n, turn, &w);
+    rst_loop(b->threads, n, turn, &w);
     for (int64_t i = n - 1; i >= 0; i--) {
         struct rst_column *c = &b->column[w.check[i].cell];
         if (w.check[i].status < 0) status = rst_report(error, w.check[i].status, "%s", w.check[i].why.message);

@@ -1,14 +1,14 @@
-/* Loops by several threads (builder.h). All threads use the rounding mode of the caller, so that
- * the bits do not depend on the thread.
+/* Loops by several threads (parallel.h).
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "table/builder.h"
-
-#include <time.h>
+#include "base/parallel.h"
 
 #ifdef _OPENMP
 #include <fenv.h>
 #include <omp.h>
 
+/* Threads of a pool keep the rounding mode and the treatment of subnormal numbers that were set
+ * when they started. During the call they take those of the caller. Otherwise a result would depend
+ * on the thread that computes it. */
 static void share(int threads, int64_t n, void (*turn)(void *of, int thread, int64_t i), void *of)
 {
     fenv_t callers;
@@ -18,7 +18,7 @@ static void share(int threads, int64_t n, void (*turn)(void *of, int thread, int
         fenv_t own;
         fegetenv(&own);
         fesetenv(&callers);
-#pragma omp for schedule(dynamic, 1)
+#pragma omp for schedule(dynamic)
         for (int64_t i = 0; i < n; i++)
             turn(of, omp_get_thread_num(), i);
         fesetenv(&own);
@@ -26,7 +26,7 @@ static void share(int threads, int64_t n, void (*turn)(void *of, int thread, int
 }
 #endif
 
-int rst_table_threads(int threads, int64_t n)
+int rst_threads(int threads, int64_t n)
 {
 #ifdef _OPENMP
     if (threads <= 0) threads = omp_get_max_threads();
@@ -37,10 +37,10 @@ int rst_table_threads(int threads, int64_t n)
 #endif
 }
 
-void rst_table_loop(int threads, int64_t n, void (*turn)(void *of, int thread, int64_t i), void *of)
+void rst_loop(int threads, int64_t n, void (*turn)(void *of, int thread, int64_t i), void *of)
 {
 #ifdef _OPENMP
-    threads = rst_table_threads(threads, n);
+    threads = rst_threads(threads, n);
     if (threads > 1) {
         share(threads, n, turn, of);
         return;
@@ -49,19 +49,4 @@ void rst_table_loop(int threads, int64_t n, void (*turn)(void *of, int thread, i
     (void)threads;
     for (int64_t i = 0; i < n; i++)
         turn(of, 0, i);
-}
-
-void rst_table_one_at_a_time(void (*act)(void *of), void *of)
-{
-#ifdef _OPENMP
-#pragma omp critical(rst_table_one_at_a_time)
-#endif
-    act(of);
-}
-
-double rst_table_clock(void)
-{
-    struct timespec t = {0};
-    timespec_get(&t, TIME_UTC);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
