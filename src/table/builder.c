@@ -3,16 +3,8 @@
 #include "table/builder.h"
 
 #include <stdlib.h>
-#include <time.h>
 
 #include "base/window.h"
-
-double rst_table_clock(void)
-{
-    struct timespec t = {0};
-    timespec_get(&t, TIME_UTC);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 void restitute_table_options_init_sized(restitute_table_options *options, size_t size)
 {

@@ -154,7 +154,7 @@ int rst_make_table(const struct rst_builder *b, restitute_table **table, restitu
  * large ones (verify.c). */
 int rst_verify(struct rst_builder *b, const restitute_table *table, int round, int *missed, restitute_error *error);
 
-/* Time of day, in s (builder.c). */
+/* Time of day, in s (refine.c). */
 double rst_table_clock(void);
 
 /* ---- all of it */

@@ -4,6 +4,14 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
+
+double rst_table_clock(void)
+{
+    struct timespec t = {0};
+    timespec_get(&t, TIME_UTC);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
 
 /* Impacts that refinement may still take: of max_impacts, and in the time left at the present
  * rate. */
