@@ -4,9 +4,9 @@
 
 #include <math.h>
 
-/* Ten times the work of an impact whose slip needs elements. One that hardly rebounds may need
- * more. Then its estimated error is above the tolerance. */
-static const double most_work = 0.01; /* nominal seconds */
+/* Ten times the work of an impact whose slip needs elements, for a solid of up to so many terms.
+ * One that hardly rebounds may need more. Then its estimated error is above the tolerance. */
+static const double most_work = 0.01, usual_terms = 30; /* nominal seconds */
 
 static int unit_numbers(const restitute_scene *scene, restitute_scene *unit, restitute_numbers *numbers,
                         restitute_error *error)
@@ -55,7 +55,7 @@ void rst_column_solver_init(const struct rst_contact *contact, const restitute_t
     restitute_options_init(&s->options);
     s->options.method = restitute_method_sync();
     s->options.tolerance = fmax(1e-8, tolerance);
-    s->options.max_work = most_work;
+    s->options.max_work = most_work * fmax(1, (double)restitute_material_terms(contact->scene.material) / usual_terms);
     s->options.time_limit = INFINITY; /* a clock would make tables differ */
 }
 
@@ -65,8 +65,8 @@ static int name_place(double speed, double psi, const restitute_error *why, rest
     if (rst_column_is_too_hard(why->status))
         return rst_report(
             error, why->status,
-            "speed (m/s) = %g, psi = %g: too much work, or a rebound that is lost in rounding: the damping "
-            "is too strong for a table; lower the upper end of speed",
+            "speed (m/s) = %g, psi = %g: too much work, or a rebound that is lost in rounding; raise the "
+            "tolerance, or lower the upper end of speed",
             speed, psi);
     return rst_report(error, why->status, "speed (m/s) = %g, psi = %g: %.160s", speed, psi, why->message);
 }
