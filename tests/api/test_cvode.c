@@ -65,7 +65,7 @@ static void status_follows_the_reported_estimate(void **state)
     for (double tolerance = 3e-5; tolerance < 3e-4; tolerance *= 1.03) {
         restitute_options options = cvode_to(tolerance);
         options.elements = 32;
-        const struct solution s = solve_impact(options, impact_of(7.0 / 6, 0.7, 0.1, 1));
+        const struct solution s = solve_pair(options, impact_of(7.0 / 6, 0.7, 0.1, 1));
         const int met = s.result.error_ez <= tolerance && s.result.error_ex <= tolerance;
         CHECK(s.status == (met ? RESTITUTE_OK : RESTITUTE_TOLERANCE_NOT_REACHED), "status %d: %g and %g of %g",
               s.status, s.result.error_ez, s.result.error_ex, tolerance);
@@ -81,7 +81,7 @@ static void status_follows_the_reported_estimate(void **state)
 static void max_work_ends_with_the_best_result(void **state)
 {
     const restitute_impact impact = impact_of(8, 0.5, 0, 1);
-    const double ex = solve_impact(cvode_to(1e-6), impact).result.ex;
+    const double ex = solve_pair(cvode_to(1e-6), impact).result.ex;
     double last_error = INFINITY;
     (void)state;
     for (int i = 0; i < 5; i++) {
@@ -262,7 +262,7 @@ static void history_ends_with_the_pair(void **state)
 static void an_infinite_psi_is_no_friction(void **state)
 {
     (void)state;
-    const struct solution s = solve_impact(cvode_to(1e-4), impact_of(7.0 / 6, INFINITY, 1, 1));
+    const struct solution s = solve_pair(cvode_to(1e-4), impact_of(7.0 / 6, INFINITY, 1, 1));
     CHECK(s.result.ex == -1 && s.result.error_ex == 0, "%g +- %g", s.result.ex, s.result.error_ex);
 }
 
@@ -273,7 +273,7 @@ static void sinking_spheres_are_told(void **state)
     const double tau[] = {0.2}, g[] = {1};
     (void)state;
     restitute_material *maxwell = solid_of(0, 0, 1, tau, g);
-    const struct solution s = solve_impact(cvode_to(1e-4), impact_on(maxwell, 7.0 / 6, 0.5));
+    const struct solution s = solve_pair(cvode_to(1e-4), impact_on(maxwell, 7.0 / 6, 0.5));
     CHECK(s.status == RESTITUTE_NO_REBOUND, "status %d", s.status);
     CHECK(s.result.ez == 0 && s.result.ex == 0 && isinf(s.result.contact_time), "%g %g", s.result.ez, s.result.ex);
     /* a rebound slower than a hundredth of the tolerance counts as none */

@@ -79,7 +79,7 @@ static void hopelessly_damped_impact_is_refused(void **state)
     CHECK(strstr(error.message, "rebound too slow"), "%s", error.message);
     restitute_solver_destroy(solver);
     impact.delta1 = 1e6; /* strong, but seen */
-    CHECK(solve_impact(default_options(), impact).result.ez > 0, "delta1 = 1e6");
+    CHECK(solve_pair(default_options(), impact).result.ez > 0, "delta1 = 1e6");
 }
 
 /* An estimate from steps near the stable limit must still tell the truth. */
@@ -92,7 +92,7 @@ static void rough_overrides_are_not_trusted(void **state)
         const double gamma = random_log(&random, 1e-2, 1e2), delta1 = random_log(&random, 1e-3, 10);
         const double psi = random_log(&random, 0.05, 10), chi = random_in(&random, 0.4, 4);
         restitute_impact impact = impact_of(chi, psi, delta1, gamma);
-        struct restitute_result fine = solve_impact(default_options(), impact).result;
+        struct restitute_result fine = solve_pair(default_options(), impact).result;
         restitute_options options = as_told(0, 1e6);
         restitute_solver *solver;
         restitute_error error;
@@ -100,7 +100,7 @@ static void rough_overrides_are_not_trusted(void **state)
         restitute_solve(solver, &impact, NULL, NULL, NULL, &error);
         restitute_solver_destroy(solver);
         double limit = strtod(strstr(error.message, "stable step: ") + strlen("stable step: "), NULL);
-        struct restitute_result r = solve_impact(as_told(0, limit * random_in(&random, 0.3, 1)), impact).result;
+        struct restitute_result r = solve_pair(as_told(0, limit * random_in(&random, 0.3, 1)), impact).result;
         above += fabs(r.ez - fine.ez) > r.error_ez + 1e-3 || fabs(r.ex - fine.ex) > r.error_ex + 1e-3;
     }
     CHECK(above <= 10, "%d of 200 errors above their estimate, allowed are one in twenty", above);
@@ -222,7 +222,7 @@ static void status_follows_the_reported_estimate(void **state)
             const restitute_impact impact = impact_of(7.0 / 6, 0.7, 0, INFINITY);
             restitute_options options = as_told(elements, 0);
             options.method = methods[i];
-            const restitute_result r = solve_impact(options, impact).result;
+            const restitute_result r = solve_pair(options, impact).result;
             const double estimate = fmax(r.error_ez, r.error_ex);
             for (double part = 0.725; part < 1.5; part += 0.05) {
                 options.tolerance = part * estimate;
@@ -262,9 +262,9 @@ static void tighter_tolerances_are_met(void **state)
 {
     (void)state;
     restitute_impact impact = impact_of(1.4, 1.3, 0.4, 0.3);
-    struct restitute_result best = solve_impact(to_tolerance(1e-5), impact).result;
+    struct restitute_result best = solve_pair(to_tolerance(1e-5), impact).result;
     for (double tolerance = 1e-1; tolerance > 5e-5; tolerance /= 10) {
-        struct restitute_result r = solve_impact(to_tolerance(tolerance), impact).result;
+        struct restitute_result r = solve_pair(to_tolerance(tolerance), impact).result;
         CHECK_NEAR(r.ez, best.ez, tolerance + 1e-5, "tolerance %g", tolerance);
         CHECK_NEAR(r.ex, best.ex, tolerance + 1e-5, "tolerance %g", tolerance);
         CHECK(fmax(r.error_ez, r.error_ex) <= tolerance, "estimate %g at %g", r.error_ez, tolerance);
@@ -382,7 +382,7 @@ static void a_used_solver_gives_the_bits_of_a_fresh_one(void **state)
         restitute_result again;
         restitute_result_init(&again);
         CHECK(restitute_solve(used, &impact, &again, NULL, NULL, NULL) == RESTITUTE_OK, "impact %d", i);
-        struct restitute_result fresh = solve_impact(default_options(), impact).result;
+        struct restitute_result fresh = solve_pair(default_options(), impact).result;
         CHECK(memcmp(&again.ez, &fresh.ez, sizeof again.ez) == 0 &&
                   memcmp(&again.ex, &fresh.ex, sizeof again.ex) == 0 && again.steps == fresh.steps &&
                   again.contact_time == fresh.contact_time,
@@ -449,7 +449,7 @@ static void an_infinite_psi_is_no_friction(void **state)
             CHECK(force[k] == 0 && velocity[k] == 1, "%s, sample %d: %g, %g", result.method, k, force[k], velocity[k]);
         /* e_z does not know of friction: rounding, of other runs */
         impact.psi = 1e12;
-        CHECK_NEAR(solve_impact(options, impact).result.ez, result.ez, result.error_ez, "%s", result.method);
+        CHECK_NEAR(solve_pair(options, impact).result.ez, result.ez, result.error_ez, "%s", result.method);
     }
 }
 

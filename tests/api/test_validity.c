@@ -97,7 +97,7 @@ static void ratios_are_what_they_say(void **state)
     restitute_options all = default_options();
     all.speed_limit = all.radius_limit = all.displacement_limit = 0;
     CHECK(solve_scene(all, &scene).result.flags == 7, "limits can be set");
-    r = solve_impact(default_options(), impact_of(1, 1, 0, 1)).result;
+    r = solve_pair(default_options(), impact_of(1, 1, 0, 1)).result;
     CHECK(isnan(r.speed_ratio) && isnan(r.radius_ratio) && isnan(r.displacement_ratio) && r.flags == 0,
           "dimensionless");
     restitute_material_destroy(steel);

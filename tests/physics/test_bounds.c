@@ -27,7 +27,7 @@ static void check_impact(restitute_impact impact, const char *what, int number)
 
     /* First order: three quarters of the error go with four times the resolution, so the difference
      * is 3/4 of it. */
-    struct restitute_result f = solve_impact(finer(&r, 4), impact).result;
+    struct restitute_result f = solve_pair(finer(&r, 4), impact).result;
     CHECK_NEAR(r.ez, f.ez, 0.75e-3, "%s %d: chi %.17g psi %.17g delta1 %.17g gamma %.17g", what, number, impact.chi,
                impact.psi, impact.delta1, impact.gamma);
     CHECK_NEAR(r.ex, f.ex, 0.75e-3, "%s %d: chi %.17g psi %.17g delta1 %.17g gamma %.17g", what, number, impact.chi,

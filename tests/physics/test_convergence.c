@@ -17,7 +17,7 @@ static struct errors errors[truth_rows];
 static int is_viscous(const struct truth *t)
 {
     return t->delta1 > 0 &&
-           solve_impact(default_options(), impact_of(t->chi, t->psi, t->delta1, t->gamma)).result.terms_merged == 0;
+           solve_pair(default_options(), impact_of(t->chi, t->psi, t->delta1, t->gamma)).result.terms_merged == 0;
 }
 
 static int solve_all(void **state)
@@ -27,12 +27,12 @@ static int solve_all(void **state)
     for (int i = 0; i < truth_rows; i++) {
         const struct truth *t = &rows[i];
         restitute_impact impact = impact_of(t->chi, t->psi, t->delta1, t->gamma);
-        struct restitute_result first = solve_impact(default_options(), impact).result;
+        struct restitute_result first = solve_pair(default_options(), impact).result;
         /* where the default is fine already, half of it is asymptotic too, at a quarter of the
          * work */
         for (int k = 0; k < levels; k++) {
             restitute_options options = finer(&first, first.elements > 64 ? 0.5 * (1 << k) : 1 << k);
-            struct restitute_result r = solve_impact(options, impact).result;
+            struct restitute_result r = solve_pair(options, impact).result;
             errors[i].ez[k] = r.ez - t->ez;
             errors[i].ex[k] = r.ex - t->ex;
         }

@@ -11,9 +11,9 @@ enum { impacts = 25 };
  * three times. */
 static void compare(restitute_impact impact)
 {
-    const struct solution c = solve_impact(cvode_to(1e-5), impact);
-    const restitute_result s = solve_impact(sync_to(1e-5), impact).result;
-    const restitute_result fine = solve_impact(sync_to(1e-8), impact).result;
+    const struct solution c = solve_pair(cvode_to(1e-5), impact);
+    const restitute_result s = solve_pair(sync_to(1e-5), impact).result;
+    const restitute_result fine = solve_pair(sync_to(1e-8), impact).result;
     CHECK(c.status == RESTITUTE_OK && c.result.error_ez <= 1e-5 && c.result.error_ex <= 1e-5, "status %d", c.status);
     CHECK_NEAR(fine.ez, c.result.ez, 3 * c.result.error_ez, "chi %.17g psi %.17g delta1 %.17g gamma %.17g", impact.chi,
                impact.psi, impact.delta1, impact.gamma);
@@ -53,19 +53,6 @@ static void gross_slip_may_end_at_the_turning_point(void **state)
     }
 }
 
-/* Without the ledger, which takes as long as a hundred pairs at large chi. */
-static double ex_of(restitute_options options, const restitute_impact *impact)
-{
-    restitute_solver *solver;
-    restitute_result result;
-    restitute_error error;
-    restitute_result_init(&result);
-    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
-    CHECK(restitute_solve(solver, impact, &result, NULL, NULL, &error) >= 0, "%s", error.message);
-    restitute_solver_destroy(solver);
-    return result.ex;
-}
-
 /* Just above psi = 1 gross slip ends at first touch: D' = 1 - (psi - 1)/(2 chi - 1) is next to 1,
  * or by rounding 1. If that end is missed, e_x is off by up to 2: 1e-2 is enough. */
 static void gross_slip_may_end_at_first_touch(void **state)
@@ -76,9 +63,9 @@ static void gross_slip_may_end_at_first_touch(void **state)
     for (size_t i = 0; i < sizeof above / sizeof *above; i++)
         for (int k = 0; k < 8; k++) {
             const restitute_impact impact = impact_of(chi[k / 2], 1 + above[i], 0.3, k % 2 ? 0.1 : 0);
-            const double ex = ex_of(sync_to(1e-3), &impact);
-            CHECK_NEAR(ex_of(cvode_to(1e-2), &impact), ex, 1.1e-2, "chi %g, psi - 1 = %g, gamma %g", impact.chi,
-                       above[i], impact.gamma);
+            const double ex = solve_pair(sync_to(1e-3), impact).result.ex;
+            CHECK_NEAR(solve_pair(cvode_to(1e-2), impact).result.ex, ex, 1.1e-2, "chi %g, psi - 1 = %g, gamma %g",
+                       impact.chi, above[i], impact.gamma);
         }
 }
 
@@ -89,7 +76,7 @@ static void gross_slip_may_end_with_the_contact(void **state)
     for (double off = 1e-15; off < 1e-3; off *= 10)
         for (int i = 0; i < 3; i++) {
             restitute_impact impact = impact_of(1.743 + i, 1e9, 0.5 * i, 1);
-            const double ez = solve_impact(cvode_to(1e-5), impact).result.ez;
+            const double ez = solve_pair(cvode_to(1e-5), impact).result.ez;
             impact.psi = restitute_critical_psi(impact.chi, ez) * (1 - off);
             compare(impact);
         }

@@ -60,7 +60,7 @@ static void events_come_in_order_and_change_nothing(void **state)
 {
     (void)state;
     solve_logged(cvode_to(1e-5), impact_of(chi, 0.8, 1, 0.5), &log_a);
-    const struct solution s = solve_impact(cvode_to(1e-5), impact_of(chi, 0.8, 1, 0.5));
+    const struct solution s = solve_pair(cvode_to(1e-5), impact_of(chi, 0.8, 1, 0.5));
     CHECK(s.result.ez == log_a.result.ez && s.result.ex == log_a.result.ex, "%g %g", s.result.ez, log_a.result.ez);
     for (size_t i = 1; i < log_a.events.count; i++)
         CHECK(log_a.event[i].time >= log_a.event[i - 1].time, "event %zu", i);
@@ -99,7 +99,7 @@ static void gross_slip_ends_once_and_everywhere(void **state)
 static void gross_slip_lasts_from_the_critical_psi_on(void **state)
 {
     (void)state;
-    const struct solution s = solve_impact(cvode_to(1e-7), impact_of(chi, 10, 1, 1));
+    const struct solution s = solve_pair(cvode_to(1e-7), impact_of(chi, 10, 1, 1));
     const double critical = restitute_critical_psi(chi, s.result.ez);
     solve_logged(cvode_to(tolerance), impact_of(chi, critical * (1 - 1e-5), 1, 1), &log_a);
     solve_logged(cvode_to(tolerance), impact_of(chi, critical * (1 + 1e-5), 1, 1), &log_b);

@@ -154,7 +154,7 @@ static void stiff_corner_follows_the_reduced_equations(void **state)
         for (int k = 0; k < 4; k++) {
             restitute_options options = cvode_to(tolerance);
             options.method = methods[k % 2];
-            const struct solution s = solve_impact(options, impact_of(7.0 / 6, k < 2 ? 0.5 : 9, cases[i].delta1, 1e-6));
+            const struct solution s = solve_pair(options, impact_of(7.0 / 6, k < 2 ? 0.5 : 9, cases[i].delta1, 1e-6));
             CHECK_NEAR(s.result.ez, ez, tolerance + own, "delta1 %g, %s", cases[i].delta1, s.result.method);
         }
     }

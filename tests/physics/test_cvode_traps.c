@@ -6,7 +6,7 @@
 
 static void over_the_domain(void **state)
 {
-    const int counts[] = {80, 80, 150};
+    const int counts[] = {40, 40, 75};
     (void)state;
     sweep_known(restitute_method_cvode(), 1e-3, 1);
     sweep_random(restitute_method_cvode(), 11, counts, 1e-2, 0.3);
@@ -14,7 +14,7 @@ static void over_the_domain(void **state)
 
 static void both_families(void **state)
 {
-    const int counts[] = {40, 0, 0};
+    const int counts[] = {20, 0, 0};
     (void)state;
     sweep_random(restitute_method_cvode_bdf(), 12, counts, 1e-2, 0.3);
     sweep_random(restitute_method_cvode_adams(), 13, counts, 1e-2, 0.3);

@@ -53,7 +53,7 @@ static void truth_rows_meet_every_tolerance(void **state)
 
 static void check_prony(const restitute_options *options, restitute_impact impact, double ez, double ex, double known)
 {
-    const struct solution s = solve_impact(*options, impact);
+    const struct solution s = solve_pair(*options, impact);
     CHECK_NEAR(s.result.ez, ez, options->tolerance + known, "ez");
     CHECK_NEAR(s.result.ex, ex, options->tolerance + known, "ex");
 }
@@ -100,8 +100,8 @@ static void prony_with_dashpot_agrees_with_sync(void **state)
     (void)state;
     restitute_material *solid = solid_of(0.5, 0.1, 3, tau, g);
     for (int i = 0; i < 4; i++) {
-        const struct solution a = solve_impact(cvode_to(1e-6), impact_on(solid, 7.0 / 6, psi[i]));
-        const struct solution b = solve_impact(sync_to(1e-8), impact_on(solid, 7.0 / 6, psi[i]));
+        const struct solution a = solve_pair(cvode_to(1e-6), impact_on(solid, 7.0 / 6, psi[i]));
+        const struct solution b = solve_pair(sync_to(1e-8), impact_on(solid, 7.0 / 6, psi[i]));
         CHECK_NEAR(a.result.ez, b.result.ez, 1.01e-6, "psi %g: both tolerances", psi[i]);
         CHECK_NEAR(a.result.ex, b.result.ex, 1.01e-6, "psi %g: both tolerances", psi[i]);
     }
@@ -118,8 +118,8 @@ static void stiff_corner_agrees_with_sync(void **state)
     for (int i = 0; i < 2; i++)
         for (int k = 0; k < 2; k++) {
             const double psi = k ? 1.5 : 0.5, theta = THETA_OF_DELTA1 * delta1[i];
-            const struct solution s = solve_impact(cvode_to(1e-6), impact_of(7.0 / 6, psi, delta1[i], 1e-6));
-            const struct solution r = solve_impact(sync_to(1e-6), impact_of(7.0 / 6, psi, delta1[i], 1e-6));
+            const struct solution s = solve_pair(cvode_to(1e-6), impact_of(7.0 / 6, psi, delta1[i], 1e-6));
+            const struct solution r = solve_pair(sync_to(1e-6), impact_of(7.0 / 6, psi, delta1[i], 1e-6));
             CHECK_NEAR(s.result.ez, r.result.ez, 2e-6, "delta1 %g psi %g: both tolerances", delta1[i], psi);
             if (i == 0) CHECK_NEAR(s.result.ez, 1 - 1.891706 * theta, 1e-6, "delta1 %g: the tolerance", delta1[i]);
             CHECK_NEAR(s.result.ex, r.result.ex, 2e-6, "delta1 %g psi %g: both tolerances", delta1[i], psi);
@@ -146,7 +146,7 @@ static void loose_tolerances_hold(void **state)
         restitute_options options = cvode_to(c[0]);
         options.max_work = 1;
         const restitute_impact impact = impact_of(c[1], c[2], c[3], c[4]);
-        const struct solution s = solve_impact(options, impact), r = solve_impact(sync_to(1e-4), impact);
+        const struct solution s = solve_pair(options, impact), r = solve_pair(sync_to(1e-4), impact);
         CHECK(s.status == RESTITUTE_OK && r.status == RESTITUTE_OK, "case %d: %d, %d", i, s.status, r.status);
         CHECK_NEAR(s.result.ex, r.result.ex, c[0] + r.result.error_ex, "case %d: both tolerances", i);
     }
@@ -161,7 +161,7 @@ static void families_agree(void **state)
     adams.method = restitute_method_cvode_adams();
     for (int i = 0; i < 3; i++) {
         const restitute_impact impact = impact_of(7.0 / 6, 0.5 + 0.6 * i, 0.5, 1);
-        const struct solution a = solve_impact(bdf, impact), b = solve_impact(adams, impact);
+        const struct solution a = solve_pair(bdf, impact), b = solve_pair(adams, impact);
         CHECK_NEAR(a.result.ez, b.result.ez, 2e-6, "both tolerances");
         CHECK_NEAR(a.result.ex, b.result.ex, 2e-6, "both tolerances");
     }

@@ -103,7 +103,7 @@ static void ez_follows_the_closed_ode(void **state)
     for (int i = 0; i <= 20; i++) {
         double delta1 = pow(10, -3 + 0.25 * i), ez = ez_of(delta1);
         for (double tolerance = 1e-2; tolerance > 5e-6; tolerance /= 10) {
-            struct restitute_result r = solve_impact(to_tolerance(tolerance), impact_of(7.0 / 6, 3, delta1, 0)).result;
+            struct restitute_result r = solve_pair(to_tolerance(tolerance), impact_of(7.0 / 6, 3, delta1, 0)).result;
             CHECK_NEAR(r.ez, ez, fmin(tolerance, 1.6 * r.error_ez), "delta1 %g, tolerance %g", delta1, tolerance);
         }
     }
@@ -126,7 +126,7 @@ static void little_damping_has_the_first_order_coefficient_1_891706(void **state
     double remainder[2];
     for (int i = 0; i < 2; i++) {
         double delta1 = 0.01 / (1 << i), theta = THETA_OF_DELTA1 * delta1;
-        struct restitute_result r = solve_impact(to_tolerance(1e-6), impact_of(7.0 / 6, 10, delta1, 0)).result;
+        struct restitute_result r = solve_pair(to_tolerance(1e-6), impact_of(7.0 / 6, 10, delta1, 0)).result;
         remainder[i] = 1 - r.ez - 1.891706 * theta;
         CHECK(fabs(remainder[i]) > 20 * r.error_ez, "delta1 %g: remainder %g hides in the error %g", delta1,
               remainder[i], r.error_ez);
@@ -152,7 +152,7 @@ static void strong_damping_has_the_asymptote(void **state)
         last = distance;
     }
     /* and the library with it, to its own estimate, made relative */
-    struct restitute_result r = solve_impact(to_tolerance(1e-7), impact_of(7.0 / 6, 10, 100, 0)).result;
+    struct restitute_result r = solve_pair(to_tolerance(1e-7), impact_of(7.0 / 6, 10, 100, 0)).result;
     double estimate = r.error_ez / r.ez, left = fabs(ratio_to_asymptote(100, ez_of(100)) - 1);
     CHECK_NEAR(ratio_to_asymptote(100, r.ez), 1, left + 1.01 * estimate, "ez %g", r.ez);
 }

@@ -17,7 +17,7 @@ static void elastic_contact_lasts_2_9433_T(void **state)
 {
     (void)state;
     for (int64_t elements = 32; elements <= 512; elements *= 2) {
-        struct restitute_result r = solve_impact(as_told(elements, 0), impact_of(7.0 / 6, 0, 0, INFINITY)).result;
+        struct restitute_result r = solve_pair(as_told(elements, 0), impact_of(7.0 / 6, 0, 0, INFINITY)).result;
         CHECK_NEAR(r.contact_time, elastic_contact_time, contact_time_error(&r), "%d elements", (int)elements);
         CHECK(contact_time_error(&r) < 0.3 / (double)elements, "the tolerance shrinks with the resolution");
     }
@@ -30,7 +30,7 @@ static void end_of_contact_is_continued_to_the_middle(void **state)
 {
     (void)state;
     for (int64_t elements = 4; elements <= 16; elements *= 2) {
-        struct restitute_result r = solve_impact(as_told(elements, 1e-5), impact_of(7.0 / 6, 0, 0, INFINITY)).result;
+        struct restitute_result r = solve_pair(as_told(elements, 1e-5), impact_of(7.0 / 6, 0, 0, INFINITY)).result;
         CHECK_NEAR(r.contact_time, elastic_contact_time, 0.1 * r.element_spacing * r.element_spacing, "%d elements",
                    (int)elements);
     }
@@ -41,7 +41,7 @@ static void end_of_contact_is_continued_to_the_middle(void **state)
 static void elastic_impact_rebounds_with_ez_1(void **state)
 {
     (void)state;
-    struct restitute_result r = solve_impact(default_options(), impact_of(7.0 / 6, 2, 0, INFINITY)).result;
+    struct restitute_result r = solve_pair(default_options(), impact_of(7.0 / 6, 2, 0, INFINITY)).result;
     CHECK_NEAR(r.ez, 1, r.time_step * r.time_step, "elastic");
     CHECK_NEAR(r.max_indentation, 1, r.time_step * r.time_step, "d0 is the elastic indentation");
     /* (16/3) G a_el^3/(R (1-nu)) /2 in units m v^2/d0: (15/8) (2/3) = 5/4 */
@@ -58,7 +58,7 @@ static void strongly_damped_standard_solid_is_elastic_with_both_springs(void **s
     for (size_t i = 0; i < sizeof gammas / sizeof *gammas; i++) {
         double gamma = gammas[i], scale = pow(1 + 1 / gamma, -0.4), theta = 1e7;
         struct restitute_result r =
-            solve_impact(default_options(), impact_of(7.0 / 6, 2, theta / THETA_OF_DELTA1, gamma)).result;
+            solve_pair(default_options(), impact_of(7.0 / 6, 2, theta / THETA_OF_DELTA1, gamma)).result;
         double damping = 4 * pow(scale, 2.5) / (gamma * gamma * theta) * elastic_contact_time * scale;
         CHECK(damping < 2e-4, "gamma %g: the limit is near enough, %g", gamma, damping);
         CHECK_NEAR(r.ez, 1, r.error_ez + damping, "gamma %g", gamma);
@@ -75,7 +75,7 @@ static void damping_of_a_frozen_dashpot_falls_with_its_viscosity(void **state)
     (void)state;
     double lost[2];
     for (int i = 0; i < 2; i++)
-        lost[i] = 1 - solve_impact(to_tolerance(1e-5), impact_of(7.0 / 6, 10, i ? 1e4 : 1e2, 1)).result.ez;
+        lost[i] = 1 - solve_pair(to_tolerance(1e-5), impact_of(7.0 / 6, 10, i ? 1e4 : 1e2, 1)).result.ez;
     /* the second-order term is the first times itself: at delta1 = 100 below 1 %; the error
      * estimates are 1e-5 */
     CHECK_NEAR(lost[0] / lost[1], 100, 1 + 100 * 1e-5 / lost[1], "lost %g and %g", lost[0], lost[1]);
@@ -131,7 +131,7 @@ static void elastic_impact_without_slip_has_the_known_ex(void **state)
     const double chis[] = {1, 7.0 / 6, 1.2558, 1.4375, 1.5226};
     const double known[] = {0.37507, 0.10397, -0.02333, -0.22836, -0.29620};
     for (int i = 0; i < 5; i++) {
-        struct restitute_result r = solve_impact(to_tolerance(1e-5), impact_of(chis[i], 0, 0, INFINITY)).result;
+        struct restitute_result r = solve_pair(to_tolerance(1e-5), impact_of(chis[i], 0, 0, INFINITY)).result;
         CHECK_NEAR(r.ex, known[i], 5e-6 + r.error_ex, "chi %g", chis[i]);
         double ez, ex; /* and as a user meets it */
         assert_int_equal(restitute_pair(chis[i], 0, 0, INFINITY, &ez, &ex, NULL), RESTITUTE_OK);
@@ -149,11 +149,11 @@ static void strong_friction_approaches_no_slip(void **state)
     const double chis[] = {0.5, 7.0 / 6, 3};
     for (int i = 0; i < 3; i++)
         for (int viscous = 0; viscous < 2; viscous++) {
-            double limit = solve_impact(as_told(128, 0), impact_of(chis[i], 0, viscous, 1)).result.ex;
+            double limit = solve_pair(as_told(128, 0), impact_of(chis[i], 0, viscous, 1)).result.ex;
             double before = INFINITY;
             for (double psi = 0.1; psi > 1e-7; psi /= 10) {
                 double distance =
-                    fabs(solve_impact(as_told(128, 0), impact_of(chis[i], psi, viscous, 1)).result.ex - limit);
+                    fabs(solve_pair(as_told(128, 0), impact_of(chis[i], psi, viscous, 1)).result.ex - limit);
                 CHECK(distance <= 2 * psi, "chi %g, psi %g: %g from the limit", chis[i], psi, distance);
                 CHECK(distance <= before + 1e-12, /* rounding of some 4000 steps */
                       "chi %g, psi %g: %g after %g", chis[i], psi, distance, before);

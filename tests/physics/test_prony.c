@@ -158,10 +158,10 @@ static void merging_changes_the_pair_by_less_than_its_bound(void **state)
         restitute_impact impact = impact_on(solid, chi, psi);
         restitute_options options = to_tolerance(1e-2);
         options.elements = 32;
-        struct restitute_result r = solve_impact(options, impact).result;
+        struct restitute_result r = solve_pair(options, impact).result;
         options = as_told(32, r.time_step);
         options.tolerance = 1e-8;
-        struct restitute_result all = solve_impact(options, impact).result;
+        struct restitute_result all = solve_pair(options, impact).result;
         CHECK(all.merging_bound <= 1e-9, "reference merged with a bound of %g", all.merging_bound);
         CHECK_NEAR(r.ez, all.ez, r.merging_bound + 1e-9, "solid %d, %d merged", i, (int)r.terms_merged);
         CHECK_NEAR(r.ex, all.ex, r.merging_bound + 1e-9, "solid %d, %d merged", i, (int)r.terms_merged);
@@ -183,7 +183,7 @@ static void slow_terms_count_in_long_contacts(void **state)
     for (double eta = 20; eta < 300; eta *= 2)
         for (double g = 1e-3; g < 5; g *= 1.3) {
             restitute_material *solid = solid_of(1, eta, 1, &tau, &g);
-            struct restitute_result r = solve_impact(default_options(), impact_on(solid, solid_sphere, 1)).result;
+            struct restitute_result r = solve_pair(default_options(), impact_on(solid, solid_sphere, 1)).result;
             CHECK(r.merging_bound <= 2e-4, "eta %g, g %g: bound %g above its shares of the tolerance, 1e-4 and 1e-4",
                   eta, g, r.merging_bound);
             merged += (int)r.terms_merged;

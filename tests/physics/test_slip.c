@@ -99,7 +99,7 @@ static int begins_in_stick(const struct record *r)
 
 static double ez_by(const struct solid *solid)
 {
-    return solve_impact(as_told(48, 0), impact_with(solid, 7.0 / 6, 2)).result.ez;
+    return solve_pair(as_told(48, 0), impact_with(solid, 7.0 / 6, 2)).result.ez;
 }
 
 /* (27) holds in the discrete model too: U' and D' change by the same force. Only rounding is left:
@@ -114,7 +114,7 @@ static void full_slip_has_ex_of_27(void **state)
             for (double factor = 1.05; factor < 50; factor *= 3) {
                 double psi = critical * factor;
                 struct restitute_result r =
-                    solve_impact(default_options(), impact_with(&solids[k], chis[i], psi)).result;
+                    solve_pair(default_options(), impact_with(&solids[k], chis[i], psi)).result;
                 double cut = r.ez >= 1 ? 2 * chis[i] / psi * r.error_ez : 0;
                 CHECK_NEAR(r.ex, 2 * chis[i] * (1 + r.ez) / psi - 1, cut + 1.2e-16 * (double)r.steps,
                            "%s, chi %g, psi %g", solids[k].name, chis[i], psi);
@@ -213,10 +213,10 @@ static void psi_within_rounding_of_1_is_1(void **state)
     for (int m = 0; m < 2; m++)
         for (int k = 0; k < n_solids; k++)
             for (int i = 0; i < n_chis; i++) {
-                const double ex = solve_impact(options[m], impact_with(&solids[k], chis[i], 1)).result.ex;
+                const double ex = solve_pair(options[m], impact_with(&solids[k], chis[i], 1)).result.ex;
                 for (size_t j = 0; j < sizeof off / sizeof *off; j++) {
                     const restitute_impact next = impact_with(&solids[k], chis[i], 1 + off[j]);
-                    const double found = solve_impact(options[m], next).result.ex;
+                    const double found = solve_pair(options[m], next).result.ex;
                     CHECK(found == ex, "%s, chi %g, psi - 1 = %g: %.17g, not %.17g", solids[k].name, chis[i], off[j],
                           found, ex);
                 }

@@ -30,9 +30,9 @@ static struct errors errors_of(const restitute_impact impact[impacts])
 {
     struct errors e = {{0}, {0}};
     for (int i = 0; i < impacts; i++) {
-        const restitute_result fine = solve_impact(sync_with(reference), impact[i]).result;
+        const restitute_result fine = solve_pair(sync_with(reference), impact[i]).result;
         for (int k = 0; k < runs; k++) {
-            const restitute_result r = solve_impact(sync_with((int64_t)first_run << k), impact[i]).result;
+            const restitute_result r = solve_pair(sync_with((int64_t)first_run << k), impact[i]).result;
             e.ez[k] += (r.ez - fine.ez) * (r.ez - fine.ez) / impacts;
             e.ex[k] += (r.ex - fine.ex) * (r.ex - fine.ex) / impacts;
         }

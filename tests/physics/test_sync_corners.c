@@ -18,7 +18,7 @@ struct count {
  * where slip had to be left out. */
 static void judge(restitute_impact impact, double tolerance, struct count *count)
 {
-    const restitute_result fine = solve_impact(sync_to(1e-8), impact).result;
+    const restitute_result fine = solve_pair(sync_to(1e-8), impact).result;
     const struct solution s = solve_impact(sync_to(tolerance), impact);
     const double z = certain_error(s.result.ez, fine.ez, fine.error_ez);
     const double x = certain_error(s.result.ex, fine.ex, fine.error_ex);
@@ -77,8 +77,8 @@ static void strong_friction_leaves_thin_rings_of_slip(void **state)
 static void leaving_slip_out_changes_little(void **state)
 {
     (void)state;
-    const double below = solve_impact(sync_to(1e-3), impact_of(1.106, 1.2e-4, 0.124, 0.2997)).result.ex;
-    const double above = solve_impact(sync_to(1e-3), impact_of(1.106, 1.3e-4, 0.124, 0.2997)).result.ex;
+    const double below = solve_pair(sync_to(1e-3), impact_of(1.106, 1.2e-4, 0.124, 0.2997)).result.ex;
+    const double above = solve_pair(sync_to(1e-3), impact_of(1.106, 1.3e-4, 0.124, 0.2997)).result.ex;
     CHECK_NEAR(below, 0.2312, 1e-3, "without slip");
     CHECK_NEAR(above, 0.2312, 1e-3, "with slip");
 }
@@ -129,8 +129,8 @@ static void estimates_of_given_elements_cover_the_error(void **state)
     (void)state;
     sync.elements = 4;
     euler.elements = 16;
-    const struct restitute_result s = solve_impact(sync, impact_of(74.3258, 0.128238, 0.0126552, 0.0101833)).result,
-                                  e = solve_impact(euler, impact_of(79.5495, 0.184036, 6.57322, 157.327)).result;
+    const struct restitute_result s = solve_pair(sync, impact_of(74.3258, 0.128238, 0.0126552, 0.0101833)).result,
+                                  e = solve_pair(euler, impact_of(79.5495, 0.184036, 6.57322, 157.327)).result;
     CHECK_NEAR(s.ex, 0.33221, s.error_ex, "sync");
     CHECK_NEAR(e.ex, 0.25737, e.error_ex, "euler");
     CHECK(s.error_ex < 0.3 && e.error_ex < 0.3, "estimates %g, %g", s.error_ex, e.error_ex);

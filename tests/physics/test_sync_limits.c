@@ -137,7 +137,7 @@ static void ex_is_continuous_where_gross_slip_begins_and_where_it_lasts(void **s
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 4; j++) {
             const double d = solids[j][0], g = solids[j][1];
-            const double ez = solve_impact(sync_to(1e-7), impact_of(chis[i], 1, d, g)).result.ez;
+            const double ez = solve_pair(sync_to(1e-7), impact_of(chis[i], 1, d, g)).result.ez;
             const double places[] = {1, restitute_critical_psi(chis[i], ez)};
             for (int k = 0; k < 2; k++) {
                 const struct solution below = solve_impact(sync_to(1e-6), impact_of(chis[i], places[k] - 1e-9, d, g)),
@@ -161,9 +161,9 @@ static void full_slip_is_exact(void **state)
         for (int j = 0; j < 4; j++)
             for (int k = 0; k < 3; k++) {
                 const double d = k, g = k == 2 ? 0 : 0.5;
-                const double ez = solve_impact(sync_to(1e-8), impact_of(chis[i], 1e6, d, g)).result.ez;
+                const double ez = solve_pair(sync_to(1e-8), impact_of(chis[i], 1e6, d, g)).result.ez;
                 const double psi = factors[j] * restitute_critical_psi(chis[i], ez);
-                const restitute_result r = solve_impact(sync_to(1e-4), impact_of(chis[i], psi, d, g)).result;
+                const restitute_result r = solve_pair(sync_to(1e-4), impact_of(chis[i], psi, d, g)).result;
                 CHECK_NEAR(r.ex, 2 * chis[i] * (1 + r.ez) / psi - 1, 1e-15, "chi %g, psi %g", chis[i], psi);
             }
 }
@@ -192,7 +192,7 @@ static void elastic_impact_has_its_contact_time_depth_and_force(void **state)
 {
     (void)state;
     for (double tolerance = 1e-3; tolerance > 5e-9; tolerance /= 10) {
-        const restitute_result r = solve_impact(sync_to(tolerance), impact_of(sphere, 0.7, 0, INFINITY)).result;
+        const restitute_result r = solve_pair(sync_to(tolerance), impact_of(sphere, 0.7, 0, INFINITY)).result;
         CHECK_NEAR(r.ez, 1, allowed(&r, tolerance), "tolerance %g", tolerance);
         CHECK_NEAR(r.max_indentation, 1, tolerance, "tolerance %g", tolerance);
         CHECK_NEAR(r.max_normal_force, 1.25, tolerance, "tolerance %g", tolerance);
@@ -209,13 +209,13 @@ static void little_kelvin_voigt_damping_has_its_coefficient(void **state)
     (void)state;
     for (int i = 0; i < 2; i++) {
         const double delta1 = 0.01 / (1 << i), theta = THETA_OF_DELTA1 * delta1;
-        const restitute_result r = solve_impact(sync_to(1e-8), impact_of(sphere, 10, delta1, 0)).result;
+        const restitute_result r = solve_pair(sync_to(1e-8), impact_of(sphere, 10, delta1, 0)).result;
         remainder[i] = 1 - r.ez - 1.891706 * theta;
     }
     CHECK_NEAR(remainder[0] / remainder[1], 4, 0.2, "remainders %g, %g", remainder[0], remainder[1]);
     for (double delta1 = 1e-4; delta1 > 1e-9; delta1 /= 10) {
         const double theta = THETA_OF_DELTA1 * delta1;
-        const restitute_result r = solve_impact(sync_to(1e-8), impact_of(sphere, 10, delta1, 0)).result;
+        const restitute_result r = solve_pair(sync_to(1e-8), impact_of(sphere, 10, delta1, 0)).result;
         /* second order: the remainder above is 5 theta^2 */
         CHECK_NEAR(1 - r.ez, 1.891706 * theta, 1e-8 + 10 * theta * theta, "delta1 %g", delta1);
     }
@@ -260,7 +260,7 @@ static void strongly_damped_standard_solid_is_elastic_with_both_springs(void **s
     for (int i = 0; i < 4; i++) {
         const double gamma = gammas[i], scale = pow(1 + 1 / gamma, -0.4), theta = 1e9;
         const restitute_result r =
-            solve_impact(sync_to(1e-6), impact_of(sphere, 0.7, theta / THETA_OF_DELTA1, gamma)).result;
+            solve_pair(sync_to(1e-6), impact_of(sphere, 0.7, theta / THETA_OF_DELTA1, gamma)).result;
         const double damping = 4 * pow(scale, 2.5) / (gamma * gamma * theta) * elastic_contact_time * scale;
         CHECK(damping < 1e-5, "gamma %g: the limit is near enough, %g", gamma, damping);
         CHECK_NEAR(r.ez, 1, 1e-6 + damping, "gamma %g", gamma);
@@ -308,8 +308,8 @@ static void a_term_may_be_split(void **state)
     restitute_material *whole = solid_of(1, 0.1, 3, tau, g), *split = solid_of(1, 0.1, 4, split_tau, split_g);
     (void)state;
     for (int i = 0; i < 3; i++) {
-        const restitute_result x = solve_impact(sync_with(64), impact_on(whole, sphere, psi[i])).result;
-        const restitute_result y = solve_impact(sync_with(64), impact_on(split, sphere, psi[i])).result;
+        const restitute_result x = solve_pair(sync_with(64), impact_on(whole, sphere, psi[i])).result;
+        const restitute_result y = solve_pair(sync_with(64), impact_on(split, sphere, psi[i])).result;
         CHECK_NEAR(x.ez, y.ez, 2e-9, "psi %g", psi[i]);
         CHECK_NEAR(x.ex, y.ex, 2e-9, "psi %g", psi[i]);
     }
@@ -385,10 +385,10 @@ static void slip_may_end_as_the_sphere_turns(void **state)
 {
     (void)state;
     for (double chi = 2.0 / 3; chi < 2; chi *= 1.2) {
-        const restitute_result fine = solve_impact(sync_to(1e-6), impact_of(chi, 2 * chi, 1.0 / 6, 938.0 / 3)).result;
+        const restitute_result fine = solve_pair(sync_to(1e-6), impact_of(chi, 2 * chi, 1.0 / 6, 938.0 / 3)).result;
         for (double tolerance = 1e-2; tolerance > 5e-6; tolerance /= 3) {
             const restitute_result r =
-                solve_impact(sync_to(tolerance), impact_of(chi, 2 * chi, 1.0 / 6, 938.0 / 3)).result;
+                solve_pair(sync_to(tolerance), impact_of(chi, 2 * chi, 1.0 / 6, 938.0 / 3)).result;
             CHECK_NEAR(r.ex, fine.ex, tolerance, "chi %g at %g", chi, tolerance);
         }
     }
@@ -409,7 +409,7 @@ static void what_sticks_again_late_is_not_missed(void **state)
     for (int i = 0; i < 4; i++)
         for (double tolerance = 3e-4; tolerance > 5e-6; tolerance /= 3) {
             const restitute_result r =
-                solve_impact(sync_to(tolerance), impact_of(late[i].chi, late[i].psi, late[i].delta1, late[i].gamma)).result;
+                solve_pair(sync_to(tolerance), impact_of(late[i].chi, late[i].psi, late[i].delta1, late[i].gamma)).result;
             CHECK_NEAR(r.ex, late[i].ex, r.error_ex + 1e-7, "chi %g, psi %g at %g", late[i].chi, late[i].psi, tolerance);
         }
 }
@@ -423,9 +423,9 @@ static void large_chi_keeps_its_estimate(void **state)
     (void)state;
     for (int i = 0; i < 8; i++) {
         const restitute_impact impact = impact_of(chis[i / 4], psis[i % 4], 1, 1);
-        const restitute_result fine = solve_impact(sync_to(1e-6), impact).result;
+        const restitute_result fine = solve_pair(sync_to(1e-6), impact).result;
         for (double tolerance = 1e-3; tolerance > 5e-6; tolerance /= 10) {
-            const restitute_result r = solve_impact(sync_to(tolerance), impact).result;
+            const restitute_result r = solve_pair(sync_to(tolerance), impact).result;
             const double error = fabs(r.ex - fine.ex) - fine.error_ex;
             CHECK(error <= fmin(3 * r.error_ex, tolerance), "chi %g, psi %g at %g: off by %.2e, estimated %.2e",
                   impact.chi, impact.psi, tolerance, error, r.error_ex);
@@ -441,7 +441,7 @@ static void pieces_do_not_follow_rounding(void **state)
 {
     (void)state;
     const restitute_impact impact = impact_of(284.92849777888483, 2.0566706644551729e-07, 5.5748658846548809, 7.2154541693033067);
-    const restitute_result r = solve_impact(sync_to(3.04e-7), impact).result;
+    const restitute_result r = solve_pair(sync_to(3.04e-7), impact).result;
     CHECK(r.work < 0.02, "%g nominal seconds", r.work);
     CHECK(r.error_ex < 1e-6, "estimate %g", r.error_ex);
 }
@@ -458,8 +458,8 @@ static void elements_feel_fast_arms_as_a_front_does(void **state)
     assert_int_equal(restitute_material_prony(1, 0, 4, tau, g, 0.5, &solid, NULL), RESTITUTE_OK);
     restitute_impact impact = impact_of(939.8269, 1, 0, 0);
     impact.material = solid;
-    const restitute_result front = solve_impact(sync_to(1e-5), impact).result;
-    const restitute_result walk = solve_impact(sync_to(1e-8), impact).result;
+    const restitute_result front = solve_pair(sync_to(1e-5), impact).result;
+    const restitute_result walk = solve_pair(sync_to(1e-8), impact).result;
     CHECK(walk.elements > 1000, "%lld elements: no walk", (long long)walk.elements);
     CHECK_NEAR(front.ex, 0.009724, 4.3e-6, "by a front");
     CHECK_NEAR(walk.ex, front.ex, walk.error_ex + front.error_ex, "by elements");
@@ -513,7 +513,7 @@ static void swings_without_slip_are_followed_at_large_chi(void **state)
 {
     (void)state;
     const restitute_impact impact = impact_of(809.02320322221658, 0, 0.0021698183823750444, 0);
-    const restitute_result fine = solve_impact(sync_to(1e-7), impact).result;
+    const restitute_result fine = solve_pair(sync_to(1e-7), impact).result;
     for (double tolerance = 1e-2; tolerance > 5e-6; tolerance /= 10) {
         const struct solution s = solve_impact(sync_to(tolerance), impact);
         CHECK(s.status == RESTITUTE_OK, "status %d at %g", s.status, tolerance);
@@ -532,7 +532,7 @@ static void stiff_dashpots_keep_the_sphere_from_swinging(void **state)
     for (int i = 0; i < 4; i++) {
         const double *n = impacts[i];
         const struct solution s = solve_impact(sync_to(1e-3), impact_of(n[0], n[1], n[2], n[3]));
-        const restitute_result fine = solve_impact(sync_to(1e-5), impact_of(n[0], n[1], n[2], n[3])).result;
+        const restitute_result fine = solve_pair(sync_to(1e-5), impact_of(n[0], n[1], n[2], n[3])).result;
         CHECK(s.status == RESTITUTE_OK, "impact %d: status %d", i, s.status);
         CHECK_NEAR(s.result.ex, fine.ex, s.result.error_ex + fine.error_ex, "impact %d", i);
         CHECK_NEAR(s.ledger.residual_x, 0, 0.03, "impact %d", i);

@@ -96,9 +96,9 @@ static void largest_indentation_and_contact_time_are_right(void **state)
     for (int i = 0; i < truth_rows; i++) {
         const struct truth *t = &rows[i];
         restitute_impact impact = impact_of_row(t);
-        struct restitute_result fine = solve_impact(default_options(), impact).result;
-        struct restitute_result coarser = solve_impact(finer(&fine, 0.5), impact).result;
-        struct restitute_result coarsest = solve_impact(finer(&fine, 0.25), impact).result;
+        struct restitute_result fine = solve_pair(default_options(), impact).result;
+        struct restitute_result coarser = solve_pair(finer(&fine, 0.5), impact).result;
+        struct restitute_result coarsest = solve_pair(finer(&fine, 0.25), impact).result;
         double h = fine.time_step;
         CHECK_NEAR(fine.max_indentation, t->max_indentation,
                    estimate(coarsest.max_indentation, coarser.max_indentation, fine.max_indentation) + h * h, "row %d",

@@ -61,8 +61,7 @@ static inline restitute_options as_told(int64_t elements, double time_step)
     return options;
 }
 
-/* Solve; it must not fail. Keeping the ledger does not change the pair. */
-static inline struct solution solve_impact(restitute_options options, restitute_impact impact)
+static inline struct solution solve_with(restitute_options options, restitute_impact impact, int keeps_ledger)
 {
     restitute_solver *solver;
     restitute_error error;
@@ -70,11 +69,23 @@ static inline struct solution solve_impact(restitute_options options, restitute_
     restitute_result_init(&s.result);
     restitute_ledger_init(&s.ledger);
     CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
-    s.status = restitute_solve(solver, &impact, &s.result, &s.ledger, NULL, &error);
+    s.status = restitute_solve(solver, &impact, &s.result, keeps_ledger ? &s.ledger : NULL, NULL, &error);
     restitute_solver_destroy(solver);
     CHECK(s.status >= 0, "chi %.17g psi %.17g delta1 %.17g gamma %.17g: %s", impact.chi, impact.psi, impact.delta1,
           impact.gamma, error.message);
     return s;
+}
+
+/* Solve; it must not fail. */
+static inline struct solution solve_impact(restitute_options options, restitute_impact impact)
+{
+    return solve_with(options, impact, 1);
+}
+
+/* Without the ledger, which does not change the pair and may take as long as a hundred. */
+static inline struct solution solve_pair(restitute_options options, restitute_impact impact)
+{
+    return solve_with(options, impact, 0);
 }
 
 static inline struct solution solve_scene(restitute_options options, const restitute_scene *scene)
