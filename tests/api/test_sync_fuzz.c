@@ -10,7 +10,7 @@
 
 enum { most_terms = 12, capacity = 50 };
 
-static long count = 2000;
+static long count = 1000;
 static uint64_t seed = 1;
 
 static int one_in(uint64_t *random, int n)
