@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Benchmarks to tables and figures of the records:  report.py PROGRAMS DIRECTORY [OPTION ...]
 
