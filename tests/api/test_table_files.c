@@ -11,6 +11,7 @@
 
 #include <restitute/table_files.h>
 
+#include "../support/bytes.h"
 #include "../support/checksum.h"
 #include "../support/odd_files.h"
 #include "../support/random.h"
@@ -30,11 +31,8 @@ static int set_up(void **state)
     table = table_of(&scene, 0.1, 1, 1e-2);
     restitute_error error;
     CHECK(restitute_table_write(table, path, &error) == RESTITUTE_OK, "%s", error.message);
-    FILE *file = fopen(path, "rb");
-    assert_non_null(file);
     bytes = malloc(1 << 24);
-    size = fread(bytes, 1, 1 << 24, file);
-    fclose(file);
+    size = read_bytes(path, bytes, 1 << 24);
     return 0;
 }
 
@@ -47,14 +45,6 @@ static int tear_down(void **state)
     unlink(path);
     unlink(broken);
     return 0;
-}
-
-static void put(const unsigned char *content, size_t length)
-{
-    FILE *file = fopen(broken, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(content, 1, length, file), length);
-    fclose(file);
 }
 
 static int alike(const restitute_table *a, const restitute_table *b)
@@ -86,10 +76,9 @@ static void what_is_written_is_read(void **state)
     CHECK(restitute_table_contact_set(read, &scene, &contact, &error) == RESTITUTE_OK, "%s", error.message);
     CHECK(contact.speed_factor == 1, "%.17g: the material is known again", contact.speed_factor);
     CHECK(restitute_table_write(read, broken, &error) == RESTITUTE_OK, "%s", error.message);
-    FILE *file = fopen(broken, "rb");
     unsigned char *again = malloc(size + 1);
-    CHECK(fread(again, 1, size + 1, file) == size && memcmp(again, bytes, size) == 0, "the same table, the same bytes");
-    fclose(file);
+    CHECK(read_bytes(broken, again, size + 1) == size && memcmp(again, bytes, size) == 0,
+          "the same table, the same bytes");
     free(again);
     restitute_table_destroy(read);
 }
@@ -119,7 +108,7 @@ static void flips_are_refused(void **state)
     memcpy(copy, bytes, size);
     for (size_t i = 0; i < size; i += i < 1500 ? 1 : 37) {
         copy[i] ^= (unsigned char)(1u << (i % 8));
-        put(copy, size);
+        write_bytes(broken, copy, size);
         check_broken(i, "flipped");
         restitute_table *read = NULL;
         refused += restitute_table_read(broken, &read, NULL) < 0;
@@ -136,7 +125,7 @@ static void cuts_are_refused(void **state)
     (void)state;
     for (size_t length = 0; length < size; length += length < 1500 ? 7 : 1009) {
         restitute_table *read = NULL;
-        put(bytes, length);
+        write_bytes(broken, bytes, length);
         check_broken(length, "cut");
         assert_true(restitute_table_read(broken, &read, NULL) < 0);
     }
@@ -144,7 +133,7 @@ static void cuts_are_refused(void **state)
     restitute_table *read = NULL;
     memcpy(longer, bytes, size);
     longer[size] = 0;
-    put(longer, size + 1);
+    write_bytes(broken, longer, size + 1);
     assert_int_equal(restitute_table_read(broken, &read, NULL), RESTITUTE_ERROR_FORMAT);
     free(longer);
 }
@@ -177,19 +166,19 @@ static void endless_files_are_refused(void **state)
 static void foreign_and_later_files_are_refused(void **state)
 {
     (void)state;
-    put((const unsigned char *)"tau_s,G_Pa\n1,2\n", 15);
+    write_bytes(broken, "tau_s,G_Pa\n1,2\n", 15);
     refused("is not a table file", RESTITUTE_ERROR_FORMAT);
-    put(bytes + 512, size - 512); /* plain HDF5 */
+    write_bytes(broken, bytes + 512, size - 512); /* plain HDF5 */
     refused("is not a table file", RESTITUTE_ERROR_FORMAT);
     unsigned char *later = malloc(size);
     memcpy(later, bytes, size);
     char *schema = strstr((char *)later, "schema 8");
     assert_non_null(schema);
     schema[7] = '9';
-    put(later, size);
+    write_bytes(broken, later, size);
     refused("schema 9: this library reads schema 8", RESTITUTE_ERROR_FORMAT);
     schema[7] = '7';
-    put(later, size);
+    write_bytes(broken, later, size);
     refused("schema 7, of an earlier library; this one reads schema 8: build the table again", RESTITUTE_ERROR_FORMAT);
     free(later);
     restitute_table *read = NULL;
@@ -203,7 +192,7 @@ static void foreign_and_later_files_are_refused(void **state)
 static void put_with_checksum(unsigned char *content, size_t length)
 {
     set_checksum(content, length);
-    put(content, length);
+    write_bytes(broken, content, length);
 }
 
 /* The place and the bytes of a set, as the file states them; `member`: of the set `numbers`. */

@@ -18,6 +18,7 @@
 
 #include <restitute/table_files.h>
 
+#include "../support/bytes.h"
 #include "../support/table.h"
 
 static char folder[] = "test_table_files_places.XXXXXX";
@@ -28,12 +29,8 @@ static size_t size;
 static size_t read_file(const char *path, unsigned char **content)
 {
     enum { most = 1 << 20 };
-    FILE *file = fopen(path, "rb");
-    assert_non_null(file);
     *content = malloc(most);
-    const size_t count = fread(*content, 1, most, file);
-    fclose(file);
-    return count;
+    return read_bytes(path, *content, most);
 }
 
 static int holds_table(const char *path)

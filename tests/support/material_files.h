@@ -8,7 +8,7 @@
 
 #include <restitute/files.h>
 
-#include "check.h"
+#include "bytes.h"
 
 /* The files of the tests, all in the current directory; the teardown removes them. Their names
  * begin with STEM, which a test defines. */
@@ -24,14 +24,6 @@
 /* The beginning of a material file, on one line. */
 #define HEAD(model) "{\"name\": \"n\", \"poisson_ratio\": 0.25, \"model\": \"" model "\""
 #define TERM(tau, modulus) "{\"tau_s\": " tau ", \"modulus_pa\": " modulus "}"
-
-static inline void write_bytes(const char *path, const char *bytes, size_t length)
-{
-    FILE *file = fopen(path, "wb");
-    CHECK(file != NULL, "cannot write %s", path);
-    CHECK(fwrite(bytes, 1, length, file) == length, "cannot write %s", path);
-    CHECK(fclose(file) == 0, "cannot close %s", path);
-}
 
 static inline void write_text(const char *path, const char *text)
 {
