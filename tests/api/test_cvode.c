@@ -6,6 +6,7 @@
 
 #include "../support/comma_locale.h"
 #include "../support/cvode.h"
+#include "../support/history.h"
 #include "../support/time_limit.h"
 
 static restitute_solver *make(restitute_options options)
@@ -133,7 +134,8 @@ static void time_limit_ends_with_the_best_result(void **state)
 {
     (void)state;
     check_time_limit(cvode_to(1e-6),
-                     impact_of(388.75154582840514, 26.42748466847636, 1.8011568930709814, 0.049585286428120476), 0.5, 0.0002665);
+                     impact_of(388.75154582840514, 26.42748466847636, 1.8011568930709814, 0.049585286428120476), 0.5,
+                     0.0002665);
 }
 
 static void arguments_are_checked(void **state)
@@ -241,9 +243,7 @@ static void history_ends_with_the_pair(void **state)
         restitute_error error;
         restitute_result_init(&result);
         restitute_history_init(&h);
-        h.capacity = samples;
-        h.time = a[0], h.indentation = a[1], h.contact_radius = a[2], h.stick_radius = a[3];
-        h.normal_force = a[4], h.tangential_force = a[5], h.normal_velocity = a[6], h.tangential_velocity = a[7];
+        set_columns(&h, samples, a[0], all_columns);
         CHECK(restitute_solve(solver, &impact, &result, NULL, &h, &error) == 0, "%s", error.message);
         CHECK(h.count == samples && result.steps < samples / 2, "%zu of %lld steps", h.count, (long long)result.steps);
         for (int k = 0; k < samples; k++) {

@@ -4,6 +4,7 @@
 #define TEST_OUTPUTS_H
 
 #include "failing_allocator.h"
+#include "history.h"
 
 enum { samples = 20 };
 
@@ -21,17 +22,7 @@ static inline void prepare(struct outputs *o, struct outputs *fresh)
     restitute_result_init(&o->result);
     restitute_ledger_init(&o->ledger);
     restitute_history_init(&o->history);
-    o->history.capacity = samples;
-    double **arrays[] = {&o->history.time,
-                         &o->history.indentation,
-                         &o->history.contact_radius,
-                         &o->history.stick_radius,
-                         &o->history.normal_force,
-                         &o->history.tangential_force,
-                         &o->history.normal_velocity,
-                         &o->history.tangential_velocity};
-    for (int i = 0; i < 8; i++)
-        *arrays[i] = o->array[i];
+    set_columns(&o->history, samples, o->array[0], all_columns);
     memcpy(fresh, o, sizeof *o);
 }
 

@@ -11,6 +11,7 @@
 
 #include "data.h"
 #include "domain.h"
+#include "history.h"
 #include "solids.h"
 
 enum { trap_samples = 40 };
@@ -79,10 +80,7 @@ static inline int sweep_case(restitute_solver *solver, const struct drawn *d)
     restitute_result_init(&again);
     restitute_ledger_init(&ledger);
     restitute_history_init(&h);
-    h.capacity = trap_samples;
-    h.time = columns[0], h.indentation = columns[1], h.contact_radius = columns[2], h.stick_radius = columns[3];
-    h.normal_force = columns[4], h.tangential_force = columns[5], h.normal_velocity = columns[6];
-    h.tangential_velocity = columns[7];
+    set_columns(&h, trap_samples, columns[0], all_columns);
     WITHOUT_TRAPS(status, solve_case(solver, d, &result, NULL, NULL, &error), "%s", d->text);
     if (status < 0) return status;
     all_finite(d, &result, &ledger);
