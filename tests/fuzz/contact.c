@@ -10,9 +10,8 @@ static long steps_made;
 
 static restitute_contact_law *any_law(struct bytes *b, const restitute_material *material)
 {
-    restitute_contact_law_options o;
+    PREPARED(contact_law_options, o);
     restitute_contact_law *law = NULL;
-    restitute_contact_law_options_init(&o);
     const int known = (int)take(b, 1);
     o.deformable = 1 + below(b, 2);
     o.elements = below(b, 8) ? 8 * (1 + below(b, 4)) : (int)take(b, 4);
@@ -24,7 +23,7 @@ static restitute_contact_law *any_law(struct bytes *b, const restitute_material 
     o.longest = number(b, 1e-3, 1e3);
     restitute_contact_law_options *given = sized(b, &o);
     const int status = CALL(restitute_contact_law_create, material, given, &law);
-    REQUIRE((status < 0) == !law, "status %d", status);
+    CHECK((status < 0) == !law, "status %d", status);
     free(given);
     return law;
 }
@@ -32,8 +31,7 @@ static restitute_contact_law *any_law(struct bytes *b, const restitute_material 
 /* In its ranges, mostly: in units of radius and step. */
 static restitute_contact_motion any_motion(struct bytes *b, double radius, double step)
 {
-    restitute_contact_motion m;
-    restitute_contact_motion_init(&m);
+    PREPARED(contact_motion, m);
     const int plain = below(b, 8);
     const double angle = plain ? 0.02 * below(b, 8) : number(b, 1e-3, 3);
     m.normal[1] = sin(isfinite(angle) ? angle : 0);
@@ -83,21 +81,20 @@ static void move(struct bytes *b, struct contact *c, double radius, double step)
 static void check_force(const restitute_contact_force *f, double friction, int damaged)
 {
     const double t = hypot(hypot(f->tangential[0], f->tangential[1]), f->tangential[2]);
-    REQUIRE(isfinite(f->normal) && f->normal >= 0 && isfinite(t), "force %g, %g", f->normal, t);
-    REQUIRE(damaged || t <= friction * f->normal * (1 + 1e-12), "%.17g > %g times %.17g", t, friction, f->normal);
+    CHECK(isfinite(f->normal) && f->normal >= 0 && isfinite(t), "force %g, %g", f->normal, t);
+    CHECK(damaged || t <= friction * f->normal * (1 + 1e-12), "%.17g > %g times %.17g", t, friction, f->normal);
 }
 
 /* Losses never fall; what a contact stores is not negative. */
 static void check_details(const restitute_contact_law *law, double radius, struct contact *c)
 {
-    restitute_contact_details d;
-    restitute_contact_details_init(&d);
+    PREPARED(contact_details, d);
     if (CALL_FLAGS(restitute_contact_details_get, law, radius, c->state, &d) < 0 || c->damaged) return;
-    REQUIRE(d.friction >= c->lost[0] && d.viscous >= c->lost[1], "losses %g %g after %g %g", d.friction, d.viscous,
-            c->lost[0], c->lost[1]);
-    REQUIRE(d.stored >= 0 && isfinite(d.stored + d.work + d.friction + d.viscous), "stored %g, work %g", d.stored,
-            d.work);
-    REQUIRE(d.stick_radius >= 0 && d.stick_radius <= d.contact_radius, "radii %g %g", d.contact_radius, d.stick_radius);
+    CHECK(d.friction >= c->lost[0] && d.viscous >= c->lost[1], "losses %g %g after %g %g", d.friction, d.viscous,
+          c->lost[0], c->lost[1]);
+    CHECK(d.stored >= 0 && isfinite(d.stored + d.work + d.friction + d.viscous), "stored %g, work %g", d.stored,
+          d.work);
+    CHECK(d.stick_radius >= 0 && d.stick_radius <= d.contact_radius, "radii %g %g", d.contact_radius, d.stick_radius);
     c->lost[0] = d.friction, c->lost[1] = d.viscous;
 }
 
@@ -111,22 +108,22 @@ static void step_alone(struct bytes *b, const restitute_contact_law *law, const 
     memcpy(c->before, c->state, size * sizeof(double));
     restitute_contact_motion *given = below(b, 16) ? NULL : sized(b, &c->motion);
     if (given && given->struct_size != sizeof *given)
-        REQUIRE(CALL(restitute_contact_step, law, rates, given, c->state, &force) < 0, "struct_size");
+        CHECK(CALL(restitute_contact_step, law, rates, given, c->state, &force) < 0, "struct_size");
     free(given);
     c->status = CALL_IF(!c->damaged, restitute_contact_step, law, rates, &c->motion, c->state, &force);
-    REQUIRE(c->status == status, "%d alone, %d of many", c->status, status);
+    CHECK(c->status == status, "%d alone, %d of many", c->status, status);
     for (size_t i = 0; i < size; i++) /* but for the sign of a zero, and NaN where there was damage */
-        REQUIRE(c->state[i] == c->many[i] || c->damaged, "state %zu: %.17g alone, %.17g of many", i, c->state[i],
-                c->many[i]);
+        CHECK(c->state[i] == c->many[i] || c->damaged, "state %zu: %.17g alone, %.17g of many", i, c->state[i],
+              c->many[i]);
     if (c->status < 0) {
-        REQUIRE(c->damaged || memcmp(c->before, c->state, size * sizeof(double)) == 0, "a failed step wrote; %s",
-                fuzz_error.message);
+        CHECK(c->damaged || memcmp(c->before, c->state, size * sizeof(double)) == 0, "a failed step wrote; %s",
+              fuzz_error.message);
         return;
     }
     steps_made++;
     check_force(&force, c->motion.friction, c->damaged);
     for (int j = 0; j < 4; j++)
-        REQUIRE(f[j] == g[j], "%.17g alone, %.17g of many", f[j], g[j]);
+        CHECK(f[j] == g[j], "%.17g alone, %.17g of many", f[j], g[j]);
     check_details(law, c->motion.radius, c);
     if (CALL_FLAGS(restitute_contact_peek, law, c->motion.normal, c->state, &again) == 0) check_force(&again, 0, 1);
 }
@@ -179,16 +176,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     restitute_contact_law *law = material ? any_law(&b, material) : NULL;
     restitute_material_destroy(material);
     if (!law) return 0;
-    restitute_contact_rates rates;
+    PREPARED(contact_rates, rates);
     double limit;
-    restitute_contact_rates_init(&rates);
     int status = CALL(restitute_contact_time_step_limit, law, number(&b, 1e-9, 10), number(&b, 1e-6, 10),
                       number(&b, 1e-3, 10), &limit);
     if (status < 0) limit = 1e-6;
-    REQUIRE(limit > 0 && isfinite(limit), "limit %g s", limit);
+    CHECK(limit > 0 && isfinite(limit), "limit %g s", limit);
     const double step = below(&b, 2) ? limit * number(&b, 1e-3, 10) : number(&b, 1e-12, 1e12);
     status = CALL(restitute_contact_rates_set, law, step, &rates);
-    REQUIRE((status == RESTITUTE_OK) == (step >= 1e-60 && step <= 1e60), "step %g s: %d", step, status);
+    CHECK((status == RESTITUTE_OK) == (step >= 1e-60 && step <= 1e60), "step %g s: %d", step, status);
     if (status == RESTITUTE_OK) run(&b, law, &rates);
     restitute_contact_law_destroy(law);
     return 0;

@@ -5,25 +5,14 @@
 
 #include <fenv.h>
 #include <float.h>
-#include <math.h>
-#include <restitute/restitute.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
+
+#include "../support/check.h"
+#include "../support/prepared.h"
+#include "../support/result.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-/* libFuzzer and ctest both see the end by a signal. */
-#define REQUIRE(condition, ...)                                                                                        \
-    do {                                                                                                               \
-        if (!(condition)) {                                                                                            \
-            fprintf(stderr, "%s:%d: %s: ", __FILE__, __LINE__, #condition);                                            \
-            fprintf(stderr, __VA_ARGS__);                                                                              \
-            fprintf(stderr, "\n");                                                                                     \
-            abort();                                                                                                   \
-        }                                                                                                              \
-    } while (0)
 
 /* ---- bytes */
 
@@ -79,7 +68,7 @@ static inline void *sized(struct bytes *b, const void *value)
     const unsigned kind = (unsigned)take(b, 1);
     const size_t size = kind < 240 ? own : other[kind % 9], room = size < own ? size : own;
     char *copy = malloc(room < step ? step : room);
-    REQUIRE(copy, "out of memory");
+    CHECK(copy, "out of memory");
     memcpy(copy, value, room < step ? step : room);
     memcpy(copy, &size, step);
     return copy;
@@ -106,21 +95,16 @@ static inline int after_call(const char *name, int status, int no_flags)
 {
     const int flags = fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
     const char *message = fuzz_error.message, *end = memchr(message, 0, sizeof fuzz_error.message);
-    REQUIRE(strcmp(restitute_status_text(status), "unknown status") != 0, "%s: %d", name, status);
-    REQUIRE(fuzz_error.status == status, "%s: %d in the error, %d returned", name, fuzz_error.status, status);
-    REQUIRE(end, "%s: the message has no end", name);
-    REQUIRE(status >= 0 || end > message, "%s: %d without a message", name, status);
+    CHECK(strcmp(restitute_status_text(status), "unknown status") != 0, "%s: %d", name, status);
+    CHECK(fuzz_error.status == status, "%s: %d in the error, %d returned", name, fuzz_error.status, status);
+    CHECK(end, "%s: the message has no end", name);
+    CHECK(status >= 0 || end > message, "%s: %d without a message", name, status);
     for (const char *c = message; c < end; c++)
-        REQUIRE((unsigned char)*c >= ' ' && *c != 127, "%s: character %d in \"%s\"", name, *c, message);
-    REQUIRE(!flags || !no_flags || status == RESTITUTE_ERROR_DOMAIN || status == RESTITUTE_ERROR_FORMAT,
-            "%s: floating-point flags %x, status %d, \"%s\"", name, (unsigned)flags, status, message);
-    REQUIRE(status != RESTITUTE_ERROR_INTERNAL, "%s: %s", name, message);
+        CHECK((unsigned char)*c >= ' ' && *c != 127, "%s: character %d in \"%s\"", name, *c, message);
+    CHECK(!flags || !no_flags || status == RESTITUTE_ERROR_DOMAIN || status == RESTITUTE_ERROR_FORMAT,
+          "%s: floating-point flags %x, status %d, \"%s\"", name, (unsigned)flags, status, message);
+    CHECK(status != RESTITUTE_ERROR_INTERNAL, "%s: %s", name, message);
     return status;
-}
-
-static inline void check_pair(double ez, double ex)
-{
-    REQUIRE(ez >= 0 && ez <= 1 && ex >= -1 && ex <= 1, "pair %.17g, %.17g", ez, ex);
 }
 
 /* ---- what calls are given */
@@ -138,15 +122,8 @@ static inline restitute_material *any_material(struct bytes *b)
         g[k] = number(b, 1e-2, 1e12);
     }
     const int status = CALL(restitute_material_prony, equilibrium, viscosity, (size_t)terms, tau, g, nu, &material);
-    REQUIRE((status == RESTITUTE_OK) == (material != NULL), "status %d", status);
+    CHECK((status == RESTITUTE_OK) == (material != NULL), "status %d", status);
     return material;
-}
-
-/* A file of this content. */
-static inline void put_file(const char *path, const void *content, size_t size)
-{
-    FILE *file = fopen(path, "wb");
-    REQUIRE(file && fwrite(content, 1, size, file) == size && fclose(file) == 0, "%s cannot be written", path);
 }
 
 #endif

@@ -12,8 +12,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     size -= choice.left + 1;
     const uint8_t *csv = size ? memchr(data, 0xff, size) : NULL;
     const size_t json = csv ? (size_t)(csv - data) : size;
-    if (csv) put_file("fuzz.csv", csv + 1, size - json - 1);
-    put_file("fuzz.json", data, json);
+    if (csv) write_bytes("fuzz.csv", csv + 1, size - json - 1);
+    write_bytes("fuzz.json", data, json);
     check_file("fuzz.json", &choice);
     return 0;
 }

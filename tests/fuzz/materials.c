@@ -7,8 +7,7 @@ static void by_name(struct bytes *b)
     static const char *const known[] = {"steel", "polyisobutylene", "steel.json", "../materials/steel", ""};
     char name[300] = "";
     restitute_material *material = NULL;
-    restitute_material_info info;
-    restitute_material_info_init(&info);
+    PREPARED(material_info, info);
     const size_t length = take(b, 1);
     if (length < 5)
         strcpy(name, known[length]);
@@ -27,8 +26,7 @@ static void by_name(struct bytes *b)
 static void made_of(const restitute_material *one, const restitute_material *two, struct bytes *b)
 {
     restitute_material *shifted = NULL, *both = NULL;
-    restitute_material_info info;
-    restitute_material_info_init(&info);
+    PREPARED(material_info, info);
     double *const number_of[] = {&info.temperature, &info.wlf_c1, &info.wlf_c2, &info.wlf_reference};
     for (int i = 0; i < 4; i++)
         *number_of[i] = signed_number(b, 1e-2, 1e3);
@@ -37,7 +35,7 @@ static void made_of(const restitute_material *one, const restitute_material *two
     end_made(status, shifted);
     status = CALL(restitute_material_effective, one, two, &both);
     if (status >= 0)
-        REQUIRE(fabs(restitute_material_dundurs(both)) <= 0.5, "Dundurs' beta %g", restitute_material_dundurs(both));
+        CHECK(fabs(restitute_material_dundurs(both)) <= 0.5, "Dundurs' beta %g", restitute_material_dundurs(both));
     end_made(status, both);
 }
 
@@ -52,8 +50,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (one) {
         const double shortest = number(&b, 1e-9, 1), longest = number(&b, 1e-6, 1e9);
         const int fits = shortest >= 0 && shortest < longest;
-        REQUIRE((CALL(restitute_material_set_window, one, shortest, longest) == RESTITUTE_OK) == fits, "%g to %g s",
-                shortest, longest);
+        CHECK((CALL(restitute_material_set_window, one, shortest, longest) == RESTITUTE_OK) == fits, "%g to %g s",
+              shortest, longest);
         check_solid(one);
         made_of(one, two ? two : one, &b);
     }

@@ -5,6 +5,7 @@
 
 #include <restitute/files.h>
 
+#include "../support/bytes.h"
 #include "fuzz.h"
 
 static inline void check_solid(const restitute_material *material)
@@ -12,19 +13,19 @@ static inline void check_solid(const restitute_material *material)
     double equilibrium, viscosity, window[2];
     const size_t terms = restitute_material_terms(material);
     double *tau = malloc((terms + 1) * sizeof *tau), *g = malloc((terms + 1) * sizeof *g);
-    REQUIRE(tau && g, "out of memory");
+    CHECK(tau && g, "out of memory");
     CALL(restitute_material_series, material, &equilibrium, &viscosity, tau, g);
     CALL(restitute_material_window, material, &window[0], &window[1]);
-    REQUIRE(equilibrium >= 0 && equilibrium <= 1e30 && viscosity >= 0 && viscosity <= 1e60, "%g %g", equilibrium,
-            viscosity);
+    CHECK(equilibrium >= 0 && equilibrium <= 1e30 && viscosity >= 0 && viscosity <= 1e60, "%g %g", equilibrium,
+          viscosity);
     for (size_t k = 0; k < terms; k++)
-        REQUIRE(tau[k] >= 1e-30 && tau[k] <= 1e30 && g[k] >= 1e-30 && g[k] <= 1e30 && (k == 0 || tau[k] > tau[k - 1]),
-                "term %zu: %g s, %g Pa", k, tau[k], g[k]);
-    REQUIRE(window[0] >= 0 && window[0] <= window[1], "window %g to %g s", window[0], window[1]); /* rounded */
+        CHECK(tau[k] >= 1e-30 && tau[k] <= 1e30 && g[k] >= 1e-30 && g[k] <= 1e30 && (k == 0 || tau[k] > tau[k - 1]),
+              "term %zu: %g s, %g Pa", k, tau[k], g[k]);
+    CHECK(window[0] >= 0 && window[0] <= window[1], "window %g to %g s", window[0], window[1]); /* rounded */
     const double nu = restitute_material_poisson_ratio(material);
-    REQUIRE(nu >= 0 && nu <= 0.5, "nu = %g", nu);
+    CHECK(nu >= 0 && nu <= 0.5, "nu = %g", nu);
     for (double t = 1e-12; t < 1e13; t *= 1e3)
-        REQUIRE(isfinite(restitute_material_modulus(material, t)), "G(%g s)", t);
+        CHECK(isfinite(restitute_material_modulus(material, t)), "G(%g s)", t);
     free(tau);
     free(g);
 }
@@ -32,7 +33,7 @@ static inline void check_solid(const restitute_material *material)
 /* What a call made, if its status says so. */
 static inline void end_made(int status, restitute_material *made)
 {
-    REQUIRE((status < 0) == !made, "status %d", status);
+    CHECK((status < 0) == !made, "status %d", status);
     if (made) check_solid(made);
     restitute_material_destroy(made);
 }
@@ -48,26 +49,25 @@ static inline void check_at(double celsius, const restitute_material *material, 
 
 static inline void check_info(const restitute_material_info *info)
 {
-    REQUIRE(memchr(info->name, 0, sizeof info->name) && memchr(info->source, 0, sizeof info->source) &&
-                memchr(info->model, 0, sizeof info->model) && info->name[0] && info->model[0],
-            "texts");
-    REQUIRE(isnan(info->density) || (info->density > 0 && isfinite(info->density)), "%g kg/m^3", info->density);
-    REQUIRE(isnan(info->temperature) || info->temperature > -273.15, "%g degrees", info->temperature);
-    REQUIRE(info->window[0] >= 0 && info->window[0] < info->window[1], "window");
+    CHECK(memchr(info->name, 0, sizeof info->name) && memchr(info->source, 0, sizeof info->source) &&
+              memchr(info->model, 0, sizeof info->model) && info->name[0] && info->model[0],
+          "texts");
+    CHECK(isnan(info->density) || (info->density > 0 && isfinite(info->density)), "%g kg/m^3", info->density);
+    CHECK(isnan(info->temperature) || info->temperature > -273.15, "%g degrees", info->temperature);
+    CHECK(info->window[0] >= 0 && info->window[0] < info->window[1], "window");
 }
 
 /* Read a file and look at all that comes out. */
 static inline void check_file(const char *path, struct bytes *b)
 {
     restitute_material *material = NULL;
-    restitute_material_info info;
-    restitute_material_info_init(&info);
+    PREPARED(material_info, info);
     memset((char *)&info + sizeof info.struct_size, 0x5a, sizeof info - sizeof info.struct_size);
     restitute_material_info *given = sized(b, &info);
     const size_t size = given->struct_size;
     const int status = CALL(restitute_material_read, path, &material, given);
-    REQUIRE(size == sizeof info || status < 0, "status %d", status);
-    REQUIRE(status >= 0 || size != sizeof info || memcmp(given, &info, sizeof info) == 0, "info was written");
+    CHECK(size == sizeof info || status < 0, "status %d", status);
+    CHECK(status >= 0 || size != sizeof info || memcmp(given, &info, sizeof info) == 0, "info was written");
     if (status >= 0) {
         check_info(given);
         check_at(signed_number(b, 1e-3, 1e3), material, given);

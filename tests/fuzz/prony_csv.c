@@ -5,7 +5,7 @@
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     struct bytes choice = {data, 0};
-    put_file("fuzz.csv", data, size);
+    write_bytes("fuzz.csv", data, size);
     check_file("fuzz.csv", &choice);
     return 0;
 }
