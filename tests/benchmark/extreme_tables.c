@@ -8,8 +8,10 @@
  * Exit status 0: no fault, 1: faults, 2: usage.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
-#include <restitute/table.h>
 
+#include "../support/result.h"
+#include "../support/sync.h"
+#include "../support/table.h"
 #include "extremes.h"
 
 enum { block = 1000, most_terms = 30, samples = 20 };
@@ -55,12 +57,10 @@ static void check_block(const restitute_table *table, const restitute_table_cont
     expect_no_exception("restitute_table_pair_many");
     EXPECT(status == 0, "status %d", status);
     for (int i = 0; i < block; i++) {
-        double z = 0, x = 0;
-        EXPECT(ez[i] >= 0 && ez[i] <= 1 && ex[i] >= -1 && ex[i] <= 1, "ez %.17g ex %.17g at %.17g, %.17g m/s", ez[i],
-               ex[i], normal[i], sliding[i]);
+        EXPECT(is_pair(ez[i], ex[i]), "ez %.17g ex %.17g at %.17g, %.17g m/s", ez[i], ex[i], normal[i], sliding[i]);
         if (!alone) continue;
-        restitute_table_pair(table, contact, normal[i], sliding[i], &z, &x, NULL);
-        EXPECT(z == ez[i] && x == ex[i], "alone %.17g %.17g, in a batch %.17g %.17g", z, x, ez[i], ex[i]);
+        const struct pair p = look_up_for(table, contact, normal[i], sliding[i]);
+        EXPECT(p.ez == ez[i] && p.ex == ex[i], "alone %.17g %.17g, in a batch %.17g %.17g", p.ez, p.ex, ez[i], ex[i]);
     }
 }
 
@@ -72,31 +72,24 @@ static void check_errors(struct tally *t, const restitute_table *table, restitut
 {
     const int other = contact != NULL;
     const double speed_factor = other ? contact->speed_factor : 1;
-    restitute_table_info info;
-    restitute_options options;
+    const restitute_table_info info = describe(table);
+    restitute_options options = sync_to(fmax(1e-8, info.tolerance / 10));
     restitute_solver *solver = NULL;
-    restitute_table_info_init(&info);
-    restitute_table_describe(table, &info, NULL);
-    restitute_options_init(&options);
-    options.method = restitute_method_sync();
-    options.tolerance = fmax(1e-8, info.tolerance / 10);
-    options.time_limit = INFINITY, options.max_work = 0.1;
+    options.max_work = 0.1;
     if (restitute_solver_create(&options, &solver, NULL) < 0) return;
     for (int i = 0; i < samples; i++) {
-        restitute_result r;
-        double ez = 0, ex = 0;
-        restitute_result_init(&r);
+        PREPARED(result, r);
         scene.normal_speed = random_log(random, info.speed[0], info.speed[1]) / speed_factor;
         scene.tangential_speed = scene.normal_speed * random_log(random, 1e-3, 10);
         const int status = restitute_solve_scene(solver, &scene, &r, NULL, NULL, NULL);
-        restitute_table_pair(table, contact, scene.normal_speed, scene.tangential_speed, &ez, &ex, NULL);
+        const struct pair p = look_up_for(table, contact, scene.normal_speed, scene.tangential_speed);
         if (status != RESTITUTE_OK && status != RESTITUTE_NO_REBOUND) continue;
         const double ratio =
-            fmax((fabs(ez - r.ez) - r.error_ez) / info.error_ez, (fabs(ex - r.ex) - r.error_ex) / info.error_ex);
+            fmax((fabs(p.ez - r.ez) - r.error_ez) / info.error_ez, (fabs(p.ex - r.ex) - r.error_ex) / info.error_ex);
         t->compared[other]++;
         keep_worst(&t->worst[other], ratio);
         EXPECT(ratio <= 2, "%s at %.17g, %.17g m/s: ez %.9g ex %.9g, sync %.9g %.9g, stated errors %.2g %.2g",
-               other ? "another contact" : "", scene.normal_speed, scene.tangential_speed, ez, ex, r.ez, r.ex,
+               other ? "another contact" : "", scene.normal_speed, scene.tangential_speed, p.ez, p.ex, r.ez, r.ex,
                info.error_ez, info.error_ex);
     }
     restitute_solver_destroy(solver);
@@ -106,18 +99,16 @@ static void run_table(struct tally *t, uint64_t *random, long lookups)
 {
     static const double tolerances[] = {1e-2, 1e-3, 1e-4};
     restitute_material *material = draw_solid(random);
-    restitute_table_options options;
-    restitute_scene scene;
+    PREPARED(table_options, options);
+    PREPARED(scene, scene);
     restitute_error error = {0};
     restitute_table *table = NULL;
-    restitute_scene_init(&scene);
     scene.material = material;
     scene.radius1 = random_log(random, 1e-4, 1e-1);
     scene.mass1 = 4e3 * scene.radius1 * scene.radius1 * scene.radius1 * random_log(random, 0.1, 10);
     scene.friction = random_below(random, 8) ? random_log(random, 1e-2, 3) : random_below(random, 2) ? 0 : INFINITY;
     scene.rotation_blocked = random_below(random, 6) == 0;
     scene.deformable = 1 + random_below(random, 2);
-    restitute_table_options_init(&options);
     options.tolerance = tolerances[random_below(random, 3)];
     options.max_impacts = 3000;
     alarm(300);
@@ -128,8 +119,7 @@ static void run_table(struct tally *t, uint64_t *random, long lookups)
     EXPECT(status == RESTITUTE_OK || error.message[0], "status %d without a message", status);
     if (status) add_remark(t->remarks, status, error.message);
     if (table) {
-        restitute_table_contact contact;
-        restitute_table_contact_init(&contact);
+        PREPARED(table_contact, contact);
         restitute_scene other = scene;
         if (scene.friction > 0 && scene.friction < INFINITY) other.friction = random_log(random, 1e-3, 10);
         check_errors(t, table, scene, NULL, random);

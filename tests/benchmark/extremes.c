@@ -9,13 +9,14 @@
  * 16th of them; samples go through a second method. Exit status 0: no fault, 1: faults, 2: usage.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
-#include <restitute/restitute.h>
 #ifdef RESTITUTE_WITH_CVODE
 #include <restitute/cvode.h>
 #endif
 
 #include <time.h>
 
+#include "../support/result.h"
+#include "../support/solve.h"
 #include "extremes.h"
 
 enum { most_terms = 30, block = 64, CHI = 4, PSI = 7, DELTA1 = 4, GAMMA = 5, TOLERANCES = 4 };
@@ -26,8 +27,7 @@ static const long corners = CHI * PSI * DELTA1 * GAMMA;
 enum class { ELASTIC, KELVIN_VOIGT, STANDARD, MAXWELL, PRONY, CLASSES };
 
 struct solved_case {
-    restitute_impact impact;
-    restitute_material *material;
+    restitute_impact impact; /* with a solid of its own, or none */
     double tolerance;
     int status;
     restitute_result result;
@@ -61,69 +61,50 @@ static restitute_material *draw_prony(uint64_t *random)
         tau[k] = random_log(random, 1e-12, 1e12);
         g[k] = narrow ? random_log(random, 0.1, 10) : random_log(random, 1e-12, 1e12);
     }
-    restitute_material *material = NULL;
-    restitute_material_prony(flows ? 0 : 1, eta, (size_t)terms, tau, g, 0.5, &material, NULL);
-    return material;
+    return solid_of(flows ? 0 : 1, eta, (size_t)terms, tau, g);
 }
 
 static struct solved_case draw(const struct campaign *c, long number)
 {
     struct solved_case d = {.tolerance = tolerances[number % TOLERANCES]};
-    restitute_impact *i = &d.impact;
-    restitute_impact_init(i);
     if (number < corners) {
-        long n = number;
-        i->chi = chi_end[n % CHI], n /= CHI;
-        i->psi = psi_end[n % PSI], n /= PSI;
-        i->delta1 = delta1_end[n % DELTA1], n /= DELTA1;
-        i->gamma = gamma_end[n];
+        d.impact = impact_of(chi_end[number % CHI], psi_end[number / CHI % PSI],
+                             delta1_end[number / CHI / PSI % DELTA1], gamma_end[number / CHI / PSI / DELTA1]);
         return d;
     }
     uint64_t random = random_of(c->seed, number);
     enum class class = (enum class)random_below(&random, CLASSES);
     if (class == ELASTIC && random_below(&random, 8)) class = STANDARD; /* they are all alike */
-    i->chi = fmax(1.0 / 3, random_log(&random, 1.0 / 3, 1e3));
-    i->psi = random_log(&random, 1e-9, 1e9);
-    i->delta1 = random_log(&random, 1e-12, 1e12);
-    i->gamma = random_log(&random, 1e-12, 1e12);
-    if (class == ELASTIC) i->delta1 = 0;
-    if (class == KELVIN_VOIGT) i->gamma = 0;
-    const double g = 1, tau = i->delta1;
-    if (class == MAXWELL) restitute_material_prony(0, 0, 1, &tau, &g, 0.5, &d.material, NULL);
-    if (class == PRONY) d.material = draw_prony(&random);
-    i->material = d.material;
+    const double g = 1, chi = fmax(1.0 / 3, random_log(&random, 1.0 / 3, 1e3)), psi = random_log(&random, 1e-9, 1e9);
+    const double delta1 = random_log(&random, 1e-12, 1e12), gamma = random_log(&random, 1e-12, 1e12);
+    d.impact = impact_of(chi, psi, class == ELASTIC ? 0 : delta1, class == KELVIN_VOIGT ? 0 : gamma);
+    if (class == MAXWELL) d.impact.material = solid_of(0, 0, 1, &delta1, &g);
+    if (class == PRONY) d.impact.material = draw_prony(&random);
     return d;
 }
 
 static void print_case(const struct solved_case *d)
 {
     printf("    tolerance %g, chi %.17g psi %.17g delta1 %.17g gamma %.17g, %zu terms\n", d->tolerance, d->impact.chi,
-           d->impact.psi, d->impact.delta1, d->impact.gamma, restitute_material_terms(d->material));
-}
-
-static int is_pair(double ez, double ex)
-{
-    return ez >= 0 && ez <= 1 && ex >= -1 && ex <= 1; /* false for NaN */
+           d->impact.psi, d->impact.delta1, d->impact.gamma, restitute_material_terms(d->impact.material));
 }
 
 static void check_result(const struct solved_case *d, double max_work, const char *message)
 {
     const restitute_result *r = &d->result;
     const double error = fmax(r->error_ez, r->error_ex);
+    const char *wrong = fault_of(r, d->status);
     const int status = d->status;
     if (status < 0) {
         EXPECT(message[0] != '\0', "status %d without a message", status);
         EXPECT(r->ez == 42 && r->work == 42, "a failed call wrote its result");
         return;
     }
-    EXPECT(is_pair(r->ez, r->ex), "no pair: ez %.17g ex %.17g, status %d, error %g", r->ez, r->ex, status, error);
-    EXPECT(r->error_ez >= 0 && r->error_ex >= 0, "estimates %g %g", r->error_ez, r->error_ex);
+    EXPECT(!wrong, "%s: ez %.17g ex %.17g, status %d, error %g", wrong, r->ez, r->ex, status, error);
     EXPECT(r->max_normal_force > 0 && isfinite(r->max_normal_force), "largest force %g", r->max_normal_force);
     EXPECT(r->max_indentation > 0 && isfinite(r->max_indentation), "depth %g", r->max_indentation);
-    EXPECT(r->contact_time > 0, "contact time %g", r->contact_time);
-    EXPECT(r->work >= 0 && r->work <= 2 * max_work, "work %g of max_work %g", r->work, max_work);
+    EXPECT(r->work <= 2 * max_work, "work %g of max_work %g", r->work, max_work);
     EXPECT(status != RESTITUTE_OK || error <= d->tolerance, "OK with an estimate of %g", error);
-    EXPECT(status != RESTITUTE_NO_REBOUND || (r->ez == 0 && isinf(r->contact_time)), "NO_REBOUND with ez %g", r->ez);
     EXPECT(status != RESTITUTE_TOLERANCE_NOT_REACHED || (error > d->tolerance && message[0]),
            "TOLERANCE_NOT_REACHED with %g, message '%s'", error, message);
 }
@@ -149,8 +130,7 @@ static void check_ledger(struct campaign *c, const restitute_result *r, const re
 static void compare(struct campaign *c, const struct solved_case *d)
 {
     const restitute_result *r = &d->result;
-    restitute_result other;
-    restitute_result_init(&other);
+    PREPARED(result, other);
     const int status = restitute_solve(c->second[current % TOLERANCES], &d->impact, &other, NULL, NULL, NULL);
     const double z = fabs(r->ez - other.ez) - other.error_ez - 1e-15,
                  x = fabs(r->ex - other.ex) - other.error_ex - 1e-15;
@@ -170,11 +150,10 @@ static void compare(struct campaign *c, const struct solved_case *d)
 static void solve_case(struct campaign *c, struct solved_case *d)
 {
     restitute_error error = {0};
-    restitute_ledger ledger;
+    PREPARED(ledger, ledger);
     restitute_result *r = &d->result;
     const int k = (int)(current % TOLERANCES), with_ledger = current % 16 == 3 && d->impact.psi >= 1e-3;
     const long before = faults;
-    restitute_ledger_init(&ledger);
     restitute_result_init(r);
     r->ez = r->work = 42;
     alarm(60); /* hangs */
@@ -239,7 +218,7 @@ static void run(struct campaign *c, long first, long count)
         }
         if (n == block && at / block % 16 == 0 && isinf(c->options.time_limit)) check_batch(c, cases, at);
         for (int i = 0; i < n; i++)
-            restitute_material_destroy(cases[i].material);
+            restitute_material_destroy((restitute_material *)cases[i].impact.material);
         if (at / block % 256 == 0) fprintf(stderr, "%ld of %ld, %ld faults\n", at + n - first, count, faults);
     }
 }

@@ -7,11 +7,9 @@
 #include <fenv.h>
 #include <signal.h>
 #include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
+#include "../support/prepared.h"
 #include "../support/random.h"
 #include "../support/remarks.h"
 
