@@ -1,13 +1,14 @@
 /* Numbers of every component that is linked, one a line, in full: to be compared between compilers,
  * their options and machines (compare.py). Within one program all ways to a number give its bits:
  * single calls, batches of any size, any number of threads. Exit status 1: they do not.
- * CMakeLists.txt includes the headers of the components that are there.
+ * CMakeLists.txt includes the headers of components, of which some may lack.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <restitute/restitute.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "../support/prepared.h"
 #include "../support/random.h"
 
 enum { impacts = 200 };
@@ -16,6 +17,12 @@ static int wrong;
 static void print(const char *name, int i, double value)
 {
     printf("%s %d %.17g\n", name, i, value);
+}
+
+static void print_pair(const char *name, int i, double one, double two)
+{
+    print(name, 2 * i, one);
+    print(name, 2 * i + 1, two);
 }
 
 static void expect_same(const void *a, const void *b, size_t size, const char *what)
@@ -28,8 +35,7 @@ static void expect_same(const void *a, const void *b, size_t size, const char *w
 static restitute_impact impact_of(int i, const restitute_material *prony)
 {
     uint64_t random = (uint64_t)i;
-    restitute_impact impact;
-    restitute_impact_init(&impact);
+    PREPARED(impact, impact);
     impact.chi = 0.34 + 3 * random_in(&random, 0, 1), impact.psi = pow(10, random_in(&random, -2, 1));
     impact.delta1 = pow(10, random_in(&random, -3, 1)), impact.gamma = pow(10, random_in(&random, -2, 2));
     if (i % 5 == 0) impact.gamma = 0;
@@ -44,9 +50,8 @@ static void solve(const char *name, const restitute_method *method, int first, i
     static restitute_impact list[impacts];
     static restitute_result single[impacts], many[impacts];
     static int status[impacts], statuses[impacts];
-    restitute_options options;
+    PREPARED(options, options);
     restitute_solver *solver;
-    restitute_options_init(&options);
     options.method = method, options.tolerance = tolerance, options.time_limit = INFINITY;
     if (restitute_solver_create(&options, &solver, NULL) < 0) exit(2);
     memset(single, 0, sizeof single), memset(many, 0, sizeof many); /* holes of the structs, too */
@@ -58,7 +63,7 @@ static void solve(const char *name, const restitute_method *method, int first, i
             fprintf(stderr, "numbers: %s: impact %d: status %d\n", name, first + i, status[i]);
             wrong = 1;
         }
-        print(name, 2 * i, single[i].ez), print(name, 2 * i + 1, single[i].ex);
+        print_pair(name, i, single[i].ez, single[i].ex);
     }
     restitute_solver_destroy(solver);
     for (int threads = 1; threads <= 3; threads++) {
@@ -74,7 +79,6 @@ static void solve(const char *name, const restitute_method *method, int first, i
     }
 }
 
-#ifdef WITH_CONTACT
 /* 37 contacts, alone and in batches of 1 to 37. */
 static void contacts(const restitute_material *prony)
 {
@@ -83,14 +87,13 @@ static void contacts(const restitute_material *prony)
     restitute_contact_force force[n], forces[n];
     restitute_contact_motion motion[n];
     restitute_contact_law *law;
-    restitute_contact_rates rates;
+    PREPARED(contact_rates, rates);
     if (restitute_contact_law_create(prony, NULL, &law, NULL) < 0 || restitute_contact_law_state_size(law) > most)
         exit(2);
+    restitute_contact_rates_set(law, 0.01, &rates, NULL);
     for (int size = 1; size <= n; size += 4) {
         uint64_t random = 1;
         memset(alone, 0, sizeof alone), memset(batch, 0, sizeof batch);
-        restitute_contact_rates_init(&rates);
-        restitute_contact_rates_set(law, 0.01, &rates, NULL);
         for (int i = 0; i < n; i++) {
             restitute_contact_motion_init(&motion[i]);
             motion[i].radius = 1, motion[i].friction = 0.3, states[i] = batch[i];
@@ -110,36 +113,29 @@ static void contacts(const restitute_material *prony)
             for (int k = 0; k < most; k++)
                 alone[i][k] += 0., batch[i][k] += 0.;
             expect_same(alone[i], batch[i], sizeof alone[i], "contact");
-            if (size == 1)
-                print("contact", 2 * i, force[i].normal), print("contact", 2 * i + 1, force[i].tangential[0]);
+            if (size == 1) print_pair("contact", i, force[i].normal, force[i].tangential[0]);
         }
     }
     restitute_contact_law_destroy(law);
 }
-#endif
 
-#if defined(WITH_TABLE) || defined(WITH_FIT)
 static restitute_scene ball(const restitute_material *material)
 {
-    restitute_scene scene;
-    restitute_scene_init(&scene);
+    PREPARED(scene, scene);
     scene.material = material;
     scene.radius1 = 0.005, scene.mass1 = 0.004, scene.friction = 0.3, scene.normal_speed = 0.1;
     return scene;
 }
-#endif
 
-#ifdef WITH_TABLE
 static void tables(void)
 {
     enum { n = 1000 };
     static double v[n], u[n], ez[3][n], ex[3][n];
     uint64_t random = 3;
     restitute_material *rubber;
-    restitute_table_options options;
+    PREPARED(table_options, options);
     restitute_material_standard_solid(1e6, 1e6, 300, 0.5, &rubber, NULL);
     const restitute_scene scene = ball(rubber);
-    restitute_table_options_init(&options);
     options.tolerance = 1e-4, options.time_limit = INFINITY;
     for (int i = 0; i < n; i++)
         v[i] = pow(10, random_in(&random, -5, 3)), u[i] = v[i] * pow(10, random_in(&random, -3, 1));
@@ -158,10 +154,9 @@ static void tables(void)
         expect_same(ez[0], ez[k], sizeof ez[0], "table"), expect_same(ex[0], ex[k], sizeof ex[0], "table");
     }
     for (int i = 0; i < n; i++)
-        print("table", 2 * i, ez[0][i]), print("table", 2 * i + 1, ex[0][i]);
+        print_pair("table", i, ez[0][i], ex[0][i]);
     restitute_material_destroy(rubber);
 }
-#endif
 
 #ifdef WITH_FIT
 static void fit(void)
@@ -179,8 +174,7 @@ static void fit(void)
         scenes[i].material = NULL, points[i].scene = &scenes[i];
     }
     points[0].contact_time = 0.02;
-    restitute_fit_result result;
-    restitute_fit_result_init(&result);
+    PREPARED(fit_result, result);
     if (restitute_fit(n, points, NULL, &result, NULL) < 0) exit(2);
     for (size_t i = 0; i < result.constants; i++)
         print("fit", (int)i, result.value[i]);
@@ -193,6 +187,7 @@ int main(int argc, char **argv)
 {
     const double tau[] = {0.05, 0.4, 3}, g[] = {1, 0.7, 0.5};
     restitute_material *prony;
+    if (argc != 2) return fprintf(stderr, "usage: numbers MATERIAL.json\n"), 2;
     if (restitute_material_prony(0.5, 0, 3, tau, g, 0.5, &prony, NULL)) return 2;
     solve("sync", restitute_method_sync(), 0, impacts, 1e-6, prony);
     solve("euler", restitute_method_euler(), 0, 60, 1e-2, prony);
@@ -202,27 +197,17 @@ int main(int argc, char **argv)
 #ifdef WITH_BEM
     solve("bem", restitute_method_bem(), 1, 4, 0.1, prony); /* 0 and 5, without springs at once, are refused */
 #endif
-#ifdef WITH_CONTACT
     contacts(prony);
-#endif
-#ifdef WITH_TABLE
     tables();
-#endif
 #ifdef WITH_FIT
     fit();
 #endif
 #ifdef WITH_FILES
     restitute_material *read;
-    restitute_error error = {0};
-    if (argc != 2 || restitute_material_read(argv[1], &read, NULL, &error) < 0) {
-        fprintf(stderr, "numbers: the argument, a file of a material: %s\n", error.message);
-        return 2;
-    }
+    if (restitute_material_read(argv[1], &read, NULL, NULL) < 0) return 2;
     for (int i = -8; i < 8; i++)
         print("files", i + 8, restitute_material_modulus(read, pow(10, i)));
     restitute_material_destroy(read);
-#else
-    (void)argc, (void)argv;
 #endif
     restitute_material_destroy(prony);
     return wrong;
