@@ -26,9 +26,8 @@ struct tally {
 static restitute_material *draw_solid(uint64_t *random)
 {
     double tau[most_terms], g[most_terms];
-    const int kind = random_below(random, 5), terms = kind < 2   ? 0
-                                                      : kind < 4 ? 1
-                                                                 : 2 + random_below(random, most_terms - 1);
+    const int kind = random_below(random, 5);
+    const int terms = kind == 4 ? 2 + random_below(random, most_terms - 1) : kind >= 2;
     const double eta = kind == 1 || random_below(random, 4) == 0 ? random_log(random, 1, 1e5) : 0;
     for (int k = 0; k < terms; k++) {
         tau[k] = random_log(random, 1e-9, 1e3);

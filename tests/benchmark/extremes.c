@@ -21,8 +21,8 @@
 
 enum { most_terms = 30, block = 64, CHI = 4, PSI = 7, DELTA1 = 4, GAMMA = 5, TOLERANCES = 4 };
 static const double chi_end[CHI] = {1.0 / 3, 0.5, 7.0 / 6, 1000}, delta1_end[DELTA1] = {0, 1e-12, 1, 1e12};
-static const double psi_end[PSI] = {0, 1e-9, 1, 2, 1e9, 1e12, INFINITY},
-                    gamma_end[GAMMA] = {0, 1e-12, 1, 1e12, INFINITY};
+static const double psi_end[PSI] = {0, 1e-9, 1, 2, 1e9, 1e12, INFINITY};
+static const double gamma_end[GAMMA] = {0, 1e-12, 1, 1e12, INFINITY};
 static const long corners = CHI * PSI * DELTA1 * GAMMA;
 enum class { ELASTIC, KELVIN_VOIGT, STANDARD, MAXWELL, PRONY, CLASSES };
 
@@ -83,18 +83,12 @@ static struct solved_case draw(const struct campaign *c, long number)
     return d;
 }
 
-static void print_case(const struct solved_case *d)
-{
-    printf("    tolerance %g, chi %.17g psi %.17g delta1 %.17g gamma %.17g, %zu terms\n", d->tolerance, d->impact.chi,
-           d->impact.psi, d->impact.delta1, d->impact.gamma, restitute_material_terms(d->impact.material));
-}
-
 static void check_result(const struct solved_case *d, double max_work, const char *message)
 {
     const restitute_result *r = &d->result;
     const double error = fmax(r->error_ez, r->error_ex);
-    const char *wrong = fault_of(r, d->status);
     const int status = d->status;
+    const char *wrong = fault_of(r, status);
     if (status < 0) {
         EXPECT(message[0] != '\0', "status %d without a message", status);
         EXPECT(r->ez == 42 && r->work == 42, "a failed call wrote its result");
@@ -172,7 +166,10 @@ static void solve_case(struct campaign *c, struct solved_case *d)
     check_result(d, c->options.max_work, error.message);
     if (with_ledger && d->status == RESTITUTE_OK) check_ledger(c, r, &ledger);
     if (d->status >= 0 && c->second[k] && current / TOLERANCES % c->every == 0) compare(c, d);
-    if (faults > before && faults <= shown_faults) print_case(d);
+    if (faults > before && faults <= shown_faults)
+        printf("    tolerance %g, chi %.17g psi %.17g delta1 %.17g gamma %.17g, %zu terms\n", d->tolerance,
+               d->impact.chi, d->impact.psi, d->impact.delta1, d->impact.gamma,
+               restitute_material_terms(d->impact.material));
 }
 
 /* Cases of one tolerance again, in one call, by two threads: the same bits. */
@@ -194,12 +191,12 @@ static void check_batch(struct campaign *c, const struct solved_case *d, long fi
         restitute_solve_many(n, impacts, &options, again, statuses, NULL);
         alarm(0);
         for (int j = 0; j < n; j++) {
-            const restitute_result *r = &d[k + TOLERANCES * j].result, *b = &again[j];
-            const int status = d[k + TOLERANCES * j].status;
+            const struct solved_case *single = &d[k + TOLERANCES * j];
+            const restitute_result *r = &single->result, *b = &again[j];
             current = first + k + TOLERANCES * j;
             if (current % 16 == 3) continue; /* a ledger rounds otherwise */
-            EXPECT(statuses[j] == status, "status %d, in a batch %d", status, statuses[j]);
-            EXPECT(status < 0 || (b->ez == r->ez && b->ex == r->ex && b->error_ex == r->error_ex),
+            EXPECT(statuses[j] == single->status, "status %d, in a batch %d", single->status, statuses[j]);
+            EXPECT(single->status < 0 || (b->ez == r->ez && b->ex == r->ex && b->error_ex == r->error_ex),
                    "ez %.17g ex %.17g, in a batch %.17g %.17g", r->ez, r->ex, b->ez, b->ex);
             c->batched++;
         }
@@ -226,6 +223,9 @@ static void run(struct campaign *c, long first, long count)
 static void report(const struct campaign *c)
 {
     const long *s = c->status;
+    current = -1;
+    EXPECT(c->far < 3 || 200 * c->far <= c->compared, /* compare() forgives a wrong number within the tolerance */
+           "%ld of %ld compared are beyond ten estimates", c->far, c->compared);
     printf("%ld cases: OK %ld, NO_REBOUND %ld, TOLERANCE_NOT_REACHED %ld, failed %ld\n", s[0] + s[1] + s[2] + s[3],
            s[0], s[1], s[2], s[3]);
     printf("compared %ld, unknown %ld: error > estimate %ld, > 10 estimates %ld, worst %.3g (case %ld)\n", c->compared,
@@ -233,14 +233,6 @@ static void report(const struct campaign *c)
     print_remarks(c->remarks);
     printf("slowest %.3f s (case %ld); ledgers %ld, largest residual_z %.2g (case %ld); in batches %ld; faults %ld\n",
            c->slowest.value, c->slowest.number, c->ledgers, c->residual.value, c->residual.number, c->batched, faults);
-}
-
-/* compare() forgives a wrong number within the tolerance. These must be rare: one in 200. */
-static void check_rarity(const struct campaign *c)
-{
-    current = -1;
-    EXPECT(c->far < 3 || 200 * c->far <= c->compared, "%ld of %ld compared are beyond ten estimates", c->far,
-           c->compared);
 }
 
 static restitute_solver *solver_of(restitute_options options, const restitute_method *method, double tolerance)
@@ -281,7 +273,6 @@ int main(int argc, char **argv)
     }
     watch_signals();
     run(&c, argc > 4 ? strtol(argv[4], NULL, 10) : 0, strtol(argv[2], NULL, 10));
-    check_rarity(&c);
     report(&c);
     for (int k = 0; k < TOLERANCES; k++) {
         restitute_solver_destroy(c.solver[k]);

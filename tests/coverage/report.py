@@ -22,10 +22,8 @@ ROOMS = "src/(base|contact|euler|materials|solver|sync|table)/|fortran/(common|e
 
 
 def main(build=TOP / "build/coverage"):
-    command = ["gcovr", "-r", TOP, build, "--filter", ROOMS, "--json", "-"]
-    command += ["--gcov-ignore-parse-errors"]
-    # gfortran counts the end of a module, which never runs.
-    command += ["--exclude-lines-by-pattern", r"\s*end module.*"]
+    command = ["gcovr", "-r", TOP, build, "--filter", ROOMS, "--json", "-", "--gcov-ignore-parse-errors",
+               "--exclude-lines-by-pattern", r"\s*end module.*"]  # gfortran counts it, and it never runs
     found = json.loads(subprocess.run(command, capture_output=True, check=True, text=True).stdout)
     if not found["files"]:
         sys.exit(f"coverage: no counts in {build}: build and test the preset coverage first")
@@ -38,8 +36,7 @@ def main(build=TOP / "build/coverage"):
         missing = [line["line_number"] for line in lines if not line["count"]]
         branches = [branch["count"] > 0 for line in lines for branch in line["branches"]]
         rooms["/".join(name.split("/")[:2])].update(
-            lines=len(lines), run=len(lines) - len(missing), branches=len(branches),
-            taken=sum(branches))
+            lines=len(lines), run=len(lines) - len(missing), branches=len(branches), taken=sum(branches))
         for number in missing:
             print(f"{name}:{number}: {source[number - 1].strip()}")
         explained = int(known.get(name, 0))

@@ -2,9 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Spoils the kernels one place at a time and looks whether their tests see it.
 
-    tests/mutation/run.py                     200 mutants, 50 a room, into build/mutation
-    tests/mutation/run.py --room contact -n 20 --seed 2
-    tests/mutation/run.py --show              what survived so far
+    tests/mutation/run.py [-n 50] [--room contact ...] [--folder build/mutation]
 
 A copy of the tree is changed, built and tested; yours is not touched. The result of every mutant is
 a line of build/mutation/mutants.jsonl, so that a run that was stopped goes on where it was. Mutants
@@ -98,8 +96,8 @@ class Copy:
         self.source.mkdir(exist_ok=True)
         for words in ("init", f"fetch {TOP} HEAD", "reset --hard FETCH_HEAD"):
             subprocess.run(["git", "-C", self.source, *words.split()], check=True, capture_output=True)
-        configure = ["cmake", "-S", self.source, "-B", self.build, "-G", "Ninja", "-DRESTITUTE_TESTS=ON"]
-        configure += ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_C_FLAGS=-DRST_ONE_SHAPE=1"]
+        configure = ["cmake", "-S", self.source, "-B", self.build, "-G", "Ninja", "-DRESTITUTE_TESTS=ON",
+                     "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_C_FLAGS=-DRST_ONE_SHAPE=1"]
         configure += [f"-DRESTITUTE_{part}=OFF" for part in ("PYTHON", "BEM", "FIT", "CVODE")]
         if not self.succeeds(configure) or not self.builds():
             sys.exit(f"mutation: the tree does not build, see {self.log}")
@@ -137,7 +135,7 @@ class Copy:
 
 
 def show(results):
-    """The table of what came of the mutants, and the survivors."""
+    """The table of what became of the mutants, and the survivors."""
     for room in ROOMS:
         count = collections.Counter(r["verdict"] for r in results if r["room"] == room)
         tried = count["killed"] + count["survived"]
@@ -151,23 +149,21 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-n", type=int, default=50, help="mutants of each room (50)")
     parser.add_argument("--room", choices=ROOMS, action="append", help="default: all")
-    parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--folder", type=Path, default=TOP / "build/mutation")
-    parser.add_argument("--show", action="store_true", help="what is known so far, without a run")
     args = parser.parse_args()
     args.folder.mkdir(parents=True, exist_ok=True)
     record = args.folder / "mutants.jsonl"
     record.touch()
     results = [json.loads(line) for line in record.read_text().splitlines()]
-    copy = None if args.show else Copy(args.folder)
-    for room in [] if args.show else args.room or ROOMS:
+    copy = Copy(args.folder)
+    for room in args.room or ROOMS:
         tests = ROOMS[room][1:]
         if not (copy.builds() and all(map(copy.passes, tests))):
             sys.exit(f"mutation: the tests of {room} fail without a mutant, see {copy.log}")
         known = {(r["file"], r["line"], r["new"]) for r in results}
         tried = sum(r["room"] == room and r["verdict"] in ("killed", "survived") for r in results)
         choices = list(candidates(copy.source, room))
-        random.Random(args.seed).shuffle(choices)
+        random.Random(1).shuffle(choices)
         for path, number, old, new in choices:
             if tried >= args.n:
                 break
