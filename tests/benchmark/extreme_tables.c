@@ -8,6 +8,7 @@
  * Exit status 0: no fault, 1: faults, 2: usage.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
+#define PLAIN_CHECKS
 
 #include "../support/result.h"
 #include "../support/sync.h"

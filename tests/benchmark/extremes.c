@@ -9,6 +9,7 @@
  * 16th of them; samples go through a second method. Exit status 0: no fault, 1: faults, 2: usage.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
+#define PLAIN_CHECKS
 #ifdef RESTITUTE_WITH_CVODE
 #include <restitute/cvode.h>
 #endif

@@ -1,18 +1,16 @@
 /* Numbers of every component that is linked, one a line, in full: to be compared between compilers,
  * their options and machines (compare.py). Within one program all ways to a number give its bits:
- * single calls, batches of any size, any number of threads. Exit status 1: they do not.
+ * single calls, batches of any size, any number of threads.
  * CMakeLists.txt includes the headers of components, of which some may lack.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <restitute/restitute.h>
-#include <stdio.h>
-#include <stdlib.h>
+#define PLAIN_CHECKS
+#include <restitute/contact.h>
 #include <string.h>
 
 #include "../support/prepared.h"
-#include "../support/random.h"
+#include "../support/table.h"
 
 enum { impacts = 200 };
-static int wrong;
 
 static void print(const char *name, int i, double value)
 {
@@ -27,18 +25,15 @@ static void print_pair(const char *name, int i, double one, double two)
 
 static void expect_same(const void *a, const void *b, size_t size, const char *what)
 {
-    if (memcmp(a, b, size) == 0) return;
-    fprintf(stderr, "numbers: %s: other bits\n", what);
-    wrong = 1;
+    CHECK(memcmp(a, b, size) == 0, "%s", what);
 }
 
-static restitute_impact impact_of(int i, const restitute_material *prony)
+static restitute_impact random_impact(int i, const restitute_material *prony)
 {
     uint64_t random = (uint64_t)i;
-    PREPARED(impact, impact);
-    impact.chi = 0.34 + 3 * random_in(&random, 0, 1), impact.psi = pow(10, random_in(&random, -2, 1));
-    impact.delta1 = pow(10, random_in(&random, -3, 1)), impact.gamma = pow(10, random_in(&random, -2, 2));
-    if (i % 5 == 0) impact.gamma = 0;
+    const double chi = 0.34 + 3 * random_in(&random, 0, 1), psi = pow(10, random_in(&random, -2, 1));
+    const double delta1 = pow(10, random_in(&random, -3, 1)), gamma = pow(10, random_in(&random, -2, 2));
+    restitute_impact impact = impact_of(chi, psi, delta1, i % 5 ? gamma : 0);
     if (i % 5 == 1) impact.material = prony;
     return impact;
 }
@@ -50,19 +45,17 @@ static void solve(const char *name, const restitute_method *method, int first, i
     static restitute_impact list[impacts];
     static restitute_result single[impacts], many[impacts];
     static int status[impacts], statuses[impacts];
-    PREPARED(options, options);
+    restitute_options options = to_tolerance(tolerance);
     restitute_solver *solver;
-    options.method = method, options.tolerance = tolerance, options.time_limit = INFINITY;
-    if (restitute_solver_create(&options, &solver, NULL) < 0) exit(2);
+    options.method = method;
+    CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "%s", name);
     memset(single, 0, sizeof single), memset(many, 0, sizeof many); /* holes of the structs, too */
     for (int i = 0; i < n; i++) {
-        list[i] = impact_of(first + i, prony);
+        list[i] = random_impact(first + i, prony);
         restitute_result_init(&single[i]);
         status[i] = restitute_solve(solver, &list[i], &single[i], NULL, NULL, NULL);
-        if (status[i] != RESTITUTE_OK && status[i] != RESTITUTE_NO_REBOUND) {
-            fprintf(stderr, "numbers: %s: impact %d: status %d\n", name, first + i, status[i]);
-            wrong = 1;
-        }
+        CHECK(status[i] == RESTITUTE_OK || status[i] == RESTITUTE_NO_REBOUND, "%s: impact %d: status %d", name,
+              first + i, status[i]);
         print_pair(name, i, single[i].ez, single[i].ex);
     }
     restitute_solver_destroy(solver);
@@ -88,8 +81,8 @@ static void contacts(const restitute_material *prony)
     restitute_contact_motion motion[n];
     restitute_contact_law *law;
     PREPARED(contact_rates, rates);
-    if (restitute_contact_law_create(prony, NULL, &law, NULL) < 0 || restitute_contact_law_state_size(law) > most)
-        exit(2);
+    CHECK(restitute_contact_law_create(prony, NULL, &law, NULL) >= 0, "law");
+    CHECK(restitute_contact_law_state_size(law) <= most, "state");
     restitute_contact_rates_set(law, 0.01, &rates, NULL);
     for (int size = 1; size <= n; size += 4) {
         uint64_t random = 1;
@@ -119,14 +112,6 @@ static void contacts(const restitute_material *prony)
     restitute_contact_law_destroy(law);
 }
 
-static restitute_scene ball(const restitute_material *material)
-{
-    PREPARED(scene, scene);
-    scene.material = material;
-    scene.radius1 = 0.005, scene.mass1 = 0.004, scene.friction = 0.3, scene.normal_speed = 0.1;
-    return scene;
-}
-
 static void tables(void)
 {
     enum { n = 1000 };
@@ -134,15 +119,13 @@ static void tables(void)
     uint64_t random = 3;
     restitute_material *rubber;
     PREPARED(table_options, options);
-    restitute_material_standard_solid(1e6, 1e6, 300, 0.5, &rubber, NULL);
-    const restitute_scene scene = ball(rubber);
+    const restitute_scene scene = ball_on(1, &rubber);
     options.tolerance = 1e-4, options.time_limit = INFINITY;
     for (int i = 0; i < n; i++)
         v[i] = pow(10, random_in(&random, -5, 3)), u[i] = v[i] * pow(10, random_in(&random, -3, 1));
     for (options.threads = 1; options.threads <= 3; options.threads++) {
-        restitute_table *table;
+        restitute_table *table = built(&scene, &options);
         const int k = options.threads - 1;
-        if (restitute_table_build(&scene, &options, &table, NULL) < 0) exit(2);
         if (k == 0)
             for (int i = 0; i < n; i++)
                 restitute_table_pair(table, NULL, v[i], u[i], &ez[k][i], &ex[k][i], NULL);
@@ -165,17 +148,17 @@ static void fit(void)
     restitute_material *rubber;
     restitute_fit_point points[n];
     restitute_scene scenes[n];
-    restitute_material_standard_solid(1e6, 2e6, 300, 0.5, &rubber, NULL);
+    const restitute_scene ball = ball_on(0.5, &rubber);
     for (int i = 0; i < n; i++) {
         double ex;
-        scenes[i] = ball(rubber), scenes[i].normal_speed = pow(10, -2 + 0.25 * i);
+        scenes[i] = ball, scenes[i].normal_speed = pow(10, -2 + 0.25 * i);
         restitute_fit_point_init(&points[i]);
-        if (restitute_scene_pair(&scenes[i], &points[i].ez, &ex, NULL) < 0) exit(2);
+        CHECK(restitute_scene_pair(&scenes[i], &points[i].ez, &ex, NULL) >= 0, "pair %d", i);
         scenes[i].material = NULL, points[i].scene = &scenes[i];
     }
     points[0].contact_time = 0.02;
     PREPARED(fit_result, result);
-    if (restitute_fit(n, points, NULL, &result, NULL) < 0) exit(2);
+    CHECK(restitute_fit(n, points, NULL, &result, NULL) >= 0, "fit");
     for (size_t i = 0; i < result.constants; i++)
         print("fit", (int)i, result.value[i]);
     restitute_material_destroy(result.material);
@@ -186,9 +169,8 @@ static void fit(void)
 int main(int argc, char **argv)
 {
     const double tau[] = {0.05, 0.4, 3}, g[] = {1, 0.7, 0.5};
-    restitute_material *prony;
-    if (argc != 2) return fprintf(stderr, "usage: numbers MATERIAL.json\n"), 2;
-    if (restitute_material_prony(0.5, 0, 3, tau, g, 0.5, &prony, NULL)) return 2;
+    restitute_material *prony = solid_of(0.5, 0, 3, tau, g);
+    CHECK(argc == 2, "usage: numbers MATERIAL.json");
     solve("sync", restitute_method_sync(), 0, impacts, 1e-6, prony);
     solve("euler", restitute_method_euler(), 0, 60, 1e-2, prony);
 #ifdef WITH_CVODE
@@ -204,11 +186,11 @@ int main(int argc, char **argv)
 #endif
 #ifdef WITH_FILES
     restitute_material *read;
-    if (restitute_material_read(argv[1], &read, NULL, NULL) < 0) return 2;
+    CHECK(restitute_material_read(argv[1], &read, NULL, NULL) >= 0, "%s", argv[1]);
     for (int i = -8; i < 8; i++)
         print("files", i + 8, restitute_material_modulus(read, pow(10, i)));
     restitute_material_destroy(read);
 #endif
     restitute_material_destroy(prony);
-    return wrong;
+    return 0;
 }

@@ -1,5 +1,5 @@
 /* Checks for the cmocka tests that say, when they fail, what was compared with what and why it
- * matters.
+ * matters. With PLAIN_CHECKS, for programs without cmocka, what fails ends by a signal.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TEST_CHECK_H
 #define TEST_CHECK_H
@@ -11,7 +11,13 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#ifdef PLAIN_CHECKS
+#include <stdlib.h>
+#define print_error(...) fprintf(stderr, __VA_ARGS__)
+#define fail() (fprintf(stderr, "%s:%d\n", __FILE__, __LINE__), abort())
+#else
 #include <cmocka.h>
+#endif
 
 /* The condition holds; the rest is a printf format and its values, shown if it does not. */
 #define CHECK(condition, ...)                                                                                          \

@@ -61,7 +61,7 @@ static inline restitute_table_info describe(const restitute_table *table)
 {
     restitute_table_info info;
     restitute_table_info_init(&info);
-    assert_int_equal(restitute_table_describe(table, &info, NULL), RESTITUTE_OK);
+    CHECK(restitute_table_describe(table, &info, NULL) == RESTITUTE_OK, "info");
     return info;
 }
 
@@ -89,7 +89,7 @@ static inline restitute_table_data data_of(const restitute_table *table)
 {
     restitute_table_data data;
     restitute_table_data_init(&data);
-    assert_int_equal(restitute_table_data_get(table, &data, NULL), RESTITUTE_OK);
+    CHECK(restitute_table_data_get(table, &data, NULL) == RESTITUTE_OK, "data");
     return data;
 }
 
