@@ -74,9 +74,8 @@ static void check_errors(struct tally *t, const restitute_table *table, restitut
     const double speed_factor = other ? contact->speed_factor : 1;
     const restitute_table_info info = describe(table);
     restitute_options options = sync_to(fmax(1e-8, info.tolerance / 10));
-    restitute_solver *solver = NULL;
     options.max_work = 0.1;
-    if (restitute_solver_create(&options, &solver, NULL) < 0) return;
+    restitute_solver *solver = make_solver(&options);
     for (int i = 0; i < samples; i++) {
         PREPARED(result, r);
         scene.normal_speed = random_log(random, info.speed[0], info.speed[1]) / speed_factor;

@@ -236,15 +236,6 @@ static void report(const struct campaign *c)
            c->slowest.value, c->slowest.number, c->ledgers, c->residual.value, c->residual.number, c->batched, faults);
 }
 
-static restitute_solver *solver_of(restitute_options options, const restitute_method *method, double tolerance)
-{
-    restitute_solver *solver = NULL;
-    options.method = method;
-    options.tolerance = tolerance;
-    if (method) restitute_solver_create(&options, &solver, NULL);
-    return solver;
-}
-
 int main(int argc, char **argv)
 {
     static struct campaign c;
@@ -267,10 +258,12 @@ int main(int argc, char **argv)
     c.seed = strtoull(argv[3], NULL, 10);
     c.every = method == sync ? 64 : 4; /* sync is the fast one */
     restitute_options second = c.options;
+    second.method = method == sync ? cvode : sync;
     second.max_work = 0.1, second.time_limit = INFINITY;
     for (int k = 0; k < TOLERANCES; k++) {
-        c.solver[k] = solver_of(c.options, method, tolerances[k]);
-        c.second[k] = solver_of(second, method == sync ? cvode : sync, tolerances[k] / 10);
+        c.options.tolerance = tolerances[k], second.tolerance = tolerances[k] / 10;
+        c.solver[k] = make_solver(&c.options);
+        if (second.method) c.second[k] = make_solver(&second);
     }
     watch_signals();
     run(&c, argc > 4 ? strtol(argv[4], NULL, 10) : 0, strtol(argv[2], NULL, 10));

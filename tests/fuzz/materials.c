@@ -15,12 +15,7 @@ static void by_name(struct bytes *b)
         for (size_t i = 0; i < length; i++)
             name[i] = (char)take(b, 1);
     setenv("RESTITUTE_MATERIALS", RESTITUTE_SOURCE_DIR "/src/materials", 1);
-    const int status = CALL(restitute_material_by_name, name, &material, &info);
-    if (status >= 0) {
-        check_info(&info);
-        check_at(signed_number(b, 1, 1e3), material, &info);
-    }
-    end_made(status, material);
+    end_read(CALL(restitute_material_by_name, name, &material, &info), &material, &info, b, 1);
 }
 
 static void made_of(const restitute_material *one, const restitute_material *two, struct bytes *b)
@@ -31,12 +26,11 @@ static void made_of(const restitute_material *one, const restitute_material *two
     for (int i = 0; i < 4; i++)
         *number_of[i] = signed_number(b, 1e-2, 1e3);
     check_at(signed_number(b, 1, 1e3), one, &info);
-    int status = CALL(restitute_material_shifted, one, number(b, 1e-20, 1e20), &shifted);
-    end_made(status, shifted);
-    status = CALL(restitute_material_effective, one, two, &both);
+    end_made(CALL(restitute_material_shifted, one, number(b, 1e-20, 1e20), &shifted), &shifted);
+    const int status = CALL(restitute_material_effective, one, two, &both);
     if (status >= 0)
         CHECK(fabs(restitute_material_dundurs(both)) <= 0.5, "Dundurs' beta %g", restitute_material_dundurs(both));
-    end_made(status, both);
+    end_made(status, &both);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

@@ -31,11 +31,11 @@ static inline void check_solid(const restitute_material *material)
 }
 
 /* What a call made, if its status says so. */
-static inline void end_made(int status, restitute_material *made)
+static inline void end_made(int status, restitute_material *const *made)
 {
-    CHECK((status < 0) == !made, "status %d", status);
-    if (made) check_solid(made);
-    restitute_material_destroy(made);
+    CHECK((status < 0) == !*made, "status %d", status);
+    if (*made) check_solid(*made);
+    restitute_material_destroy(*made);
 }
 
 static inline void check_at(double celsius, const restitute_material *material, const restitute_material_info *info)
@@ -43,8 +43,7 @@ static inline void check_at(double celsius, const restitute_material *material, 
     restitute_material *made = NULL;
     const int as_read =
         info->wlf_c1 > 0 && info->wlf_c2 > 0 && info->wlf_reference > -273.15; /* else it may overflow */
-    const int status = CALL_IF(as_read, restitute_material_at_temperature, material, info, celsius, &made);
-    end_made(status, made);
+    end_made(CALL_IF(as_read, restitute_material_at_temperature, material, info, celsius, &made), &made);
 }
 
 static inline void check_info(const restitute_material_info *info)
@@ -57,7 +56,17 @@ static inline void check_info(const restitute_material_info *info)
     CHECK(info->window[0] >= 0 && info->window[0] < info->window[1], "window");
 }
 
-/* Read a file and look at all that comes out. */
+/* What a call read, if its status says so, and at any temperature from `low` on. */
+static inline void end_read(int status, restitute_material *const *read, const restitute_material_info *info,
+                            struct bytes *b, double low)
+{
+    if (status >= 0) {
+        check_info(info);
+        check_at(signed_number(b, low, 1e3), *read, info);
+    }
+    end_made(status, read);
+}
+
 static inline void check_file(const char *path, struct bytes *b)
 {
     restitute_material *material = NULL;
@@ -68,11 +77,7 @@ static inline void check_file(const char *path, struct bytes *b)
     const int status = CALL(restitute_material_read, path, &material, given);
     CHECK(size == sizeof info || status < 0, "status %d", status);
     CHECK(status >= 0 || size != sizeof info || memcmp(given, &info, sizeof info) == 0, "info was written");
-    if (status >= 0) {
-        check_info(given);
-        check_at(signed_number(b, 1e-3, 1e3), material, given);
-    }
-    end_made(status, material);
+    end_read(status, &material, given, b, 1e-3);
     free(given);
 }
 

@@ -35,7 +35,7 @@ static inline struct recording record_with(restitute_options options)
     restitute_error error;
     CHECK(restitute_cvode_recorder_create(options.method, &r.recorder, &error) == RESTITUTE_OK, "%s", error.message);
     options.method = restitute_cvode_recorder_method(r.recorder);
-    CHECK(restitute_solver_create(&options, &r.solver, &error) == RESTITUTE_OK, "%s", error.message);
+    r.solver = make_solver(&options);
     return r;
 }
 

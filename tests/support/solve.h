@@ -6,6 +6,7 @@
 #include <restitute/restitute.h>
 
 #include "check.h"
+#include "prepared.h"
 
 /* sqrt(32/15): theta = this times delta1 (23). */
 #define THETA_OF_DELTA1 1.4605934866804429
@@ -18,8 +19,7 @@ struct solution {
 
 static inline restitute_impact impact_of(double chi, double psi, double delta1, double gamma)
 {
-    restitute_impact impact;
-    restitute_impact_init(&impact);
+    PREPARED(impact, impact);
     impact.chi = chi;
     impact.psi = psi;
     impact.delta1 = delta1;
@@ -38,8 +38,7 @@ static inline restitute_impact impact_on(const restitute_material *solid, double
 /* The defaults, but no limit of time: builds with sanitizers are slow. */
 static inline restitute_options default_options(void)
 {
-    restitute_options options;
-    restitute_options_init(&options);
+    PREPARED(options, options);
     options.time_limit = INFINITY;
     return options;
 }
@@ -61,14 +60,21 @@ static inline restitute_options as_told(int64_t elements, double time_step)
     return options;
 }
 
-static inline struct solution solve_with(restitute_options options, restitute_impact impact, int keeps_ledger)
+static inline restitute_solver *make_solver(const restitute_options *options)
 {
     restitute_solver *solver;
+    restitute_error error;
+    CHECK(restitute_solver_create(options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
+    return solver;
+}
+
+static inline struct solution solve_with(restitute_options options, restitute_impact impact, int keeps_ledger)
+{
+    restitute_solver *solver = make_solver(&options);
     restitute_error error;
     struct solution s;
     restitute_result_init(&s.result);
     restitute_ledger_init(&s.ledger);
-    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
     s.status = restitute_solve(solver, &impact, &s.result, keeps_ledger ? &s.ledger : NULL, NULL, &error);
     restitute_solver_destroy(solver);
     CHECK(s.status >= 0, "chi %.17g psi %.17g delta1 %.17g gamma %.17g: %s", impact.chi, impact.psi, impact.delta1,
@@ -90,12 +96,11 @@ static inline struct solution solve_pair(restitute_options options, restitute_im
 
 static inline struct solution solve_scene(restitute_options options, const restitute_scene *scene)
 {
-    restitute_solver *solver;
+    restitute_solver *solver = make_solver(&options);
     restitute_error error;
     struct solution s;
     restitute_result_init(&s.result);
     restitute_ledger_init(&s.ledger);
-    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
     s.status = restitute_solve_scene(solver, scene, &s.result, &s.ledger, NULL, &error);
     restitute_solver_destroy(solver);
     CHECK(s.status >= 0, "v %.17g m/s: %s", scene->normal_speed, error.message);

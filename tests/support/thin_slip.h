@@ -21,7 +21,7 @@ static inline struct thin_slip solve_thin_slip(restitute_options options, const 
     struct thin_slip s = {.force = 0};
     double force[samples], velocity[samples];
     restitute_history history;
-    restitute_solver *solver;
+    restitute_solver *solver = make_solver(&options);
     restitute_error error;
     restitute_result_init(&s.result);
     restitute_ledger_init(&s.ledger);
@@ -29,7 +29,6 @@ static inline struct thin_slip solve_thin_slip(restitute_options options, const 
     history.capacity = samples;
     history.tangential_force = force;
     history.tangential_velocity = velocity;
-    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
     const int status = scene ? restitute_solve_scene(solver, scene, &s.result, &s.ledger, &history, &error)
                              : restitute_solve(solver, impact, &s.result, &s.ledger, &history, &error);
     restitute_solver_destroy(solver);

@@ -19,7 +19,6 @@ static inline void check_time_limit(restitute_options options, restitute_impact 
 {
     double seconds, taken;
     char named[40];
-    restitute_solver *solver;
     restitute_result r;
     restitute_error error;
     int status, doublings = 0;
@@ -28,7 +27,7 @@ static inline void check_time_limit(restitute_options options, restitute_impact 
         options.time_limit = ldexp(limit, doublings);
         seconds = limit > 0 ? options.time_limit : 1;
         snprintf(named, sizeof named, "time_limit = %g s", seconds);
-        CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
+        restitute_solver *solver = make_solver(&options);
         const clock_t start = clock();
         status = restitute_solve(solver, &impact, &r, NULL, NULL, &error);
         taken = (double)(clock() - start) / CLOCKS_PER_SEC;

@@ -96,11 +96,9 @@ static inline int sweep_case(restitute_solver *solver, const struct drawn *d)
 static inline restitute_solver *solver_of(const restitute_method *method, double tolerance, double max_work)
 {
     restitute_options options = to_tolerance(tolerance);
-    restitute_solver *solver;
     options.method = method;
     options.max_work = max_work;
-    CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
-    return solver;
+    return make_solver(&options);
 }
 
 /* Random cases of each reach; some of the extreme ones are refused, and some take more than
