@@ -57,9 +57,8 @@ def report_part(directory, part, args):
     """Prints what a part did; its last step, its intervals at rest, and what is wrong."""
     steps, beads = args.steps // PARTS, args.beads
     shaken = [(begin, begin + PERIOD * periods) for begin, periods in windows(steps)]
-    if not (directory / f"part.{part}.log").exists():
-        return 0, 0, [f"part {part}: no log"]
-    text = (directory / f"part.{part}.log").read_text()
+    log = directory / f"part.{part}.log"
+    text = log.read_text() if log.exists() else ""
     found = {}  # by step: one that two runs print counts once
     for words in map(str.split, text.splitlines()):
         if len(words) == len(COLUMNS) and words[0].isdigit() and int(words[1]) == beads:
@@ -81,24 +80,19 @@ def report_part(directory, part, args):
         if row["friction"] < before["friction"] or row["dashpots"] < before["dashpots"]:
             faults.append(f"part {part}, step {row['step']:.0f}: a loss falls")
     whole, again = (directory / f"{name}.{part - 1}.restart" for name in ("whole", "again"))
-    same = None
-    if whole.exists() and again.exists():
-        same = filecmp.cmp(whole, again, shallow=False)
+    same = filecmp.cmp(whole, again, shallow=False) if whole.exists() and again.exists() else None
     memory = re.findall(r"Maximum resident set size:? *([\d.]+)", text)
     print(f"part {part}: to step {last['step']:.0f}, {last['contacts']:.0f} new contacts, "
           f"restarted with the same bits: {same}, lost {scale:.3e} J, "
           f"ledger off by {worst:.1e} J, largest change in 1000 steps at rest {gain:.1e} J, "
           f"kinetic {last['kinetic']:.1e} J, memory {memory} MB")
-    if last["step"] < part * steps + overlap(steps):
-        faults.append(f"part {part}: ends at step {last['step']:.0f}")
-    if same is None and part > 1:
-        faults.append(f"part {part}: not compared with the process that went on")
-    if same is False:
-        faults.append(f"part {part}: the restarted process is not the one that went on")
-    if gain > ROUNDING * last["mechanical"]:
-        faults.append(f"part {part}: energy is created at rest, {gain:.1e} J")
-    if worst > LEDGER * scale + 1e-12 * last["mechanical"]:
-        faults.append(f"part {part}: the ledger does not close")
+    wrong = {
+        f"ends at step {last['step']:.0f}": last["step"] < part * steps + overlap(steps),
+        "not compared with the process that went on": same is None and part > 1,
+        "the restarted process is not the one that went on": same is False,
+        f"energy is created at rest, {gain:.1e} J": gain > ROUNDING * last["mechanical"],
+        "the ledger does not close": worst > LEDGER * scale + 1e-12 * last["mechanical"]}
+    faults += [f"part {part}: {what}" for what, found in wrong.items() if found]
     return last["step"], rests, faults
 
 

@@ -7,7 +7,6 @@
 #include <restitute/contact.h>
 #include <string.h>
 
-#include "../support/prepared.h"
 #include "../support/table.h"
 
 enum { impacts = 200 };
