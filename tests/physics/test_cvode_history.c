@@ -1,6 +1,7 @@
 /* Histories and ledgers of the method cvode over the whole domain, against mechanics.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/cvode.h"
+#include "../support/history.h"
 #include "../support/random.h"
 #include "../support/thin_slip.h"
 
@@ -24,10 +25,7 @@ static void record(restitute_solver *solver, struct track *t, int number)
     restitute_result_init(&result);
     restitute_ledger_init(&t->ledger);
     restitute_history_init(&h);
-    h.capacity = samples;
-    h.time = t->column[TIME], h.indentation = t->column[DEPTH], h.contact_radius = t->column[CONTACT];
-    h.stick_radius = t->column[STICK], h.normal_force = t->column[FZ], h.tangential_force = t->column[FX];
-    h.normal_velocity = t->column[VZ], h.tangential_velocity = t->column[VX];
+    set_columns(&h, samples, t->column[0], all_columns);
     const int status = restitute_solve(solver, i, &result, number % 7 ? NULL : &t->ledger, &h, &error);
     CHECK(status >= 0, "%d: %s", number, error.message);
     t->count = (int)h.count;

@@ -104,8 +104,7 @@ static inline double draw_around(uint64_t *random, double value)
 static inline double critical_psi_of(struct campaign_draw *d, const restitute_impact *impact)
 {
     restitute_impact slipping = *impact;
-    restitute_result result;
-    restitute_result_init(&result);
+    PREPARED(result, result);
     slipping.psi = 1e12;
     const int status = restitute_solve(d->normal, &slipping, &result, NULL, NULL, NULL);
     return restitute_critical_psi(impact->chi, status < 0 ? 0.5 : fmin(fmax(result.ez, 0), 1));

@@ -60,9 +60,8 @@ static inline struct dem_impact dem_impact_of(restitute_material *material, doub
 static inline restitute_contact_law *dem_law(const struct dem_impact *impact)
 {
     restitute_contact_law *law;
-    restitute_contact_law_options options;
+    PREPARED(contact_law_options, options);
     restitute_error error;
-    restitute_contact_law_options_init(&options);
     options.deformable = RESTITUTE_ONE_BODY_DEFORMS;
     options.elements = impact->elements;
     options.details = impact->details;
@@ -84,8 +83,8 @@ static inline double dem_contact_time(const struct dem_impact *impact)
 static inline struct dem_result dem_collide(const struct dem_impact *impact)
 {
     restitute_contact_law *law = dem_law(impact);
-    restitute_contact_rates rates;
-    restitute_contact_motion motion;
+    PREPARED(contact_rates, rates);
+    PREPARED(contact_motion, motion);
     restitute_contact_force force = {0};
     restitute_error error;
     double state[most_state] = {0};
@@ -95,9 +94,7 @@ static inline struct dem_result dem_collide(const struct dem_impact *impact)
     double v[3] = {incoming * along[0], incoming * along[1], 1}, half[3];
     const double mass[3] = {impact->tangential_mass, impact->tangential_mass, impact->mass};
     struct dem_result result = {0};
-    restitute_contact_rates_init(&rates);
     CHECK(restitute_contact_rates_set(law, h, &rates, &error) == 0, "%s", error.message);
-    restitute_contact_motion_init(&motion);
     motion.overlap = -impact->phase * h;
     motion.inverse_mass = 1 / impact->mass;
     motion.inverse_tangential_mass = 1 / impact->tangential_mass;

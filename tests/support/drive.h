@@ -24,9 +24,8 @@ enum { DETAILS = 1, SLIP_CYCLES = 2 };
 static inline restitute_contact_law *law_of(const restitute_material *material, int elements, int with)
 {
     restitute_contact_law *law;
-    restitute_contact_law_options options;
+    PREPARED(contact_law_options, options);
     restitute_error error;
-    restitute_contact_law_options_init(&options);
     options.deformable = RESTITUTE_ONE_BODY_DEFORMS;
     options.elements = elements;
     options.details = with & DETAILS;

@@ -8,6 +8,7 @@
 
 #include "random.h"
 #include "check.h"
+#include "prepared.h"
 
 /* A steel ball of 10 mm at speeds even in the logarithm, not yet measured. */
 static inline void drops(size_t n, double low, double high, restitute_scene *scenes, restitute_fit_point *points)
@@ -32,15 +33,13 @@ static inline double gauss(uint64_t *state)
 static inline void measure(const restitute_material *material, size_t n, restitute_fit_point *points, double noise,
                            int with_time, int with_ex, uint64_t seed)
 {
-    restitute_options options;
+    PREPARED(options, options);
     restitute_solver *solver;
-    restitute_options_init(&options);
     options.method = restitute_method_sync(), options.tolerance = 1e-7;
     assert_int_equal(restitute_solver_create(&options, &solver, NULL), RESTITUTE_OK);
     for (size_t i = 0; i < n; i++) {
         restitute_scene scene = *points[i].scene;
-        restitute_result r;
-        restitute_result_init(&r);
+        PREPARED(result, r);
         restitute_material *pair = NULL;
         if (scene.material) restitute_material_effective(material, scene.material, &pair, NULL);
         scene.material = pair ? pair : material;
@@ -70,8 +69,7 @@ static inline restitute_material *kelvin_voigt(double g1, double eta)
 
 static inline restitute_fit_options fit_options(int model)
 {
-    restitute_fit_options options;
-    restitute_fit_options_init(&options);
+    PREPARED(fit_options, options);
     options.model = model;
     return options;
 }
@@ -80,9 +78,8 @@ static inline restitute_fit_options fit_options(int model)
 static inline restitute_fit_result fitted(size_t n, const restitute_fit_point *points,
                                           const restitute_fit_options *options)
 {
-    restitute_fit_result result;
+    PREPARED(fit_result, result);
     restitute_error error;
-    restitute_fit_result_init(&result);
     CHECK(restitute_fit(n, points, options, &result, &error) == RESTITUTE_OK, "%s", error.message);
     return result;
 }

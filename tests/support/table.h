@@ -12,12 +12,11 @@
  * 0.7 over six decades of speed. */
 static inline restitute_scene ball_on(double gamma, restitute_material **material)
 {
-    restitute_scene scene;
+    PREPARED(scene, scene);
     restitute_error error;
     const int status = gamma > 0 ? restitute_material_standard_solid(1e6, 1e6 / gamma, 300, 0.5, material, &error)
                                  : restitute_material_kelvin_voigt(1e6, 300, 0.5, material, &error);
     CHECK(status == RESTITUTE_OK, "%s", error.message);
-    restitute_scene_init(&scene);
     scene.material = *material;
     scene.radius1 = 0.005;
     scene.mass1 = 0.004;
@@ -27,10 +26,9 @@ static inline restitute_scene ball_on(double gamma, restitute_material **materia
 
 static inline restitute_table *table_of(const restitute_scene *scene, double low, double high, double tolerance)
 {
-    restitute_table_options options;
+    PREPARED(table_options, options);
     restitute_table *table = NULL;
     restitute_error error;
-    restitute_table_options_init(&options);
     options.speed[0] = low;
     options.speed[1] = high;
     options.tolerance = tolerance;
@@ -41,8 +39,7 @@ static inline restitute_table *table_of(const restitute_scene *scene, double low
 /* 0.01 to 10 m/s, to 1e-4. */
 static inline restitute_table_options options_of(int threads)
 {
-    restitute_table_options options;
-    restitute_table_options_init(&options);
+    PREPARED(table_options, options);
     options.speed[0] = 1e-2, options.speed[1] = 10;
     options.tolerance = 1e-4;
     options.threads = threads;
@@ -59,8 +56,7 @@ static inline restitute_table *built(const restitute_scene *scene, const restitu
 
 static inline restitute_table_info describe(const restitute_table *table)
 {
-    restitute_table_info info;
-    restitute_table_info_init(&info);
+    PREPARED(table_info, info);
     CHECK(restitute_table_describe(table, &info, NULL) == RESTITUTE_OK, "info");
     return info;
 }
@@ -87,8 +83,7 @@ static inline struct pair look_up(const restitute_table *table, double v_n, doub
 
 static inline restitute_table_data data_of(const restitute_table *table)
 {
-    restitute_table_data data;
-    restitute_table_data_init(&data);
+    PREPARED(table_data, data);
     CHECK(restitute_table_data_get(table, &data, NULL) == RESTITUTE_OK, "data");
     return data;
 }

@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "prepared.h"
+
 enum { table_solids = 16 };
 
 struct table_solid {
@@ -47,15 +49,13 @@ static inline int table_solid_pib(const char *path, restitute_material **m, rest
  * sharply. */
 static inline restitute_scene table_solid_scene(const struct table_solid *s, const char *pib, restitute_material **m)
 {
-    restitute_scene scene;
-    restitute_numbers n;
+    PREPARED(scene, scene);
+    PREPARED(numbers, n);
     restitute_error e = {0};
     restitute_material *elastic = NULL;
     restitute_material_elastic(1e6, s->nu, &elastic, &e);
-    restitute_scene_init(&scene);
     scene.material = elastic;
     scene.radius1 = 0.005, scene.mass1 = 0.004, scene.friction = 0.3, scene.normal_speed = 0.1;
-    restitute_numbers_init(&n);
     restitute_scene_numbers(&scene, &n, &e);
     const double delta1 = s->kind == 1 && s->gamma < 0.05 ? 2 : 1, eta = delta1 * sqrt(32.0 / 15) * 1e6 * n.time;
     int status = 0;
@@ -75,14 +75,13 @@ static inline restitute_scene table_solid_scene(const struct table_solid *s, con
 static inline restitute_material *table_solid_standard(restitute_scene *scene, double nu, double gamma, double delta1,
                                                        double speed)
 {
-    restitute_numbers n;
+    PREPARED(numbers, n);
     restitute_error e = {0};
     restitute_material *m = NULL;
     restitute_material_elastic(1e6, nu, &m, &e);
     restitute_scene_init(scene);
     scene->material = m;
     scene->radius1 = 0.005, scene->mass1 = 0.004, scene->friction = 0.3, scene->normal_speed = speed;
-    restitute_numbers_init(&n);
     restitute_scene_numbers(scene, &n, &e);
     restitute_material_destroy(m);
     restitute_material_standard_solid(1e6, 1e6 / gamma, delta1 * sqrt(32.0 / 15) * 1e6 * n.time, nu, &m, &e);

@@ -20,12 +20,11 @@ static inline struct thin_slip solve_thin_slip(restitute_options options, const 
     enum { samples = 65 };
     struct thin_slip s = {.force = 0};
     double force[samples], velocity[samples];
-    restitute_history history;
+    PREPARED(history, history);
     restitute_solver *solver = make_solver(&options);
     restitute_error error;
     restitute_result_init(&s.result);
     restitute_ledger_init(&s.ledger);
-    restitute_history_init(&history);
     history.capacity = samples;
     history.tangential_force = force;
     history.tangential_velocity = velocity;
@@ -66,9 +65,8 @@ static inline void check_thin_slip(restitute_options options, double rough)
             compare_thin_slip(options, &impact, NULL, rough);
         }
     restitute_material *rubber;
-    restitute_scene scene;
+    PREPARED(scene, scene);
     CHECK(restitute_material_standard_solid(1e6, 3e6, 100, 0.5, &rubber, NULL) == RESTITUTE_OK, "rubber");
-    restitute_scene_init(&scene);
     scene.material = rubber;
     scene.radius1 = 0.01;
     scene.mass1 = 0.005;

@@ -19,10 +19,9 @@ static inline void check_time_limit(restitute_options options, restitute_impact 
 {
     double seconds, taken;
     char named[40];
-    restitute_result r;
+    PREPARED(result, r);
     restitute_error error;
     int status, doublings = 0;
-    restitute_result_init(&r);
     do {
         options.time_limit = ldexp(limit, doublings);
         seconds = limit > 0 ? options.time_limit : 1;

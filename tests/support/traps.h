@@ -72,14 +72,12 @@ static inline int sweep_case(restitute_solver *solver, const struct drawn *d)
 {
     static double columns[8][trap_samples];
     restitute_result result, again;
-    restitute_ledger ledger;
-    restitute_history h;
+    PREPARED(ledger, ledger);
+    PREPARED(history, h);
     restitute_error error;
     int status;
     restitute_result_init(&result);
     restitute_result_init(&again);
-    restitute_ledger_init(&ledger);
-    restitute_history_init(&h);
     set_columns(&h, trap_samples, columns[0], all_columns);
     WITHOUT_TRAPS(status, solve_case(solver, d, &result, NULL, NULL, &error), "%s", d->text);
     if (status < 0) return status;
