@@ -479,7 +479,7 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, result)
  *  (1/2) m v_z0^2 in z, and of the energy of the contact point's tangential motion in x. Each
  *  account adds up to 1 - residual. The solid is that whose terms are merged as the tolerance
  *  allows. Where slip is as short as the relaxation of merged terms, friction, viscous and left
- *  differ by up to 0.06 from those at a tolerance that merges none. With psi below an eighth of the
+ *  may differ by up to 0.06 from those by all terms. With psi below an eighth of the
  *  tolerance slip is left out: then left has what friction takes. */
 typedef struct restitute_ledger {
     size_t struct_size;                  /**< set by @ref restitute_ledger_init */

@@ -21,18 +21,8 @@ int rst_motion_ledger(struct rst_motion *motion, const struct rst_problem *probl
     const double least = fmin(rst_ledger_elements * sqrt(fmax(1, problem->chi)), rst_most_ledger_elements);
     const int64_t panels = run->normal.n_compression;
     const int sticks = !rst_never_sticks(problem, -outcome->velocity);
-    const double before = problem->shear_speed * problem->shear_speed;
-    double residual;
-    int64_t parts = 1 + (int64_t)least / panels;
-    do {
-        if (rst_walk(motion, run, problem, sticks, parts, 1, &walk))
-            return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
-        const struct rst_ledger *const l = &walk.ledger;
-        const double after = outcome->shear_velocity * outcome->shear_velocity;
-        residual = fabs(1 - (after + l->viscous_x + l->friction_x + l->left_x) / before);
-        outcome->ledger = *l;
-        parts *= 2;
-    } while (residual > rst_ledger_residual && parts * panels <= rst_most_ledger_elements);
-    if (residual > rst_ledger_residual) rst_remark(error, "ledger: residual_x is %.2g", residual);
+    if (rst_walk(motion, run, problem, sticks, 1 + (int64_t)least / panels, 1, &walk))
+        return rst_report(error, RESTITUTE_ERROR_MEMORY, "out of memory for elements");
+    outcome->ledger = walk.ledger;
     return RESTITUTE_OK;
 }

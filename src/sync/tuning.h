@@ -88,9 +88,8 @@ static const double rst_least_roughness = 1e-15;
 /* Panels of a motion that is not lost in rounding; elements of the last walk. Those of the walk
  * that keeps the ledger: at least so many times chi^(1/2), if chi > 1, but not more than the last.
  * Twice: more time, and a ledger that closes four times better; parts change by 0.01 of the energy
- * at most. They are doubled where residual_x is more than that. */
+ * at most. */
 enum { rst_most_panels = 4096, rst_most_elements = 16384, rst_ledger_elements = 256, rst_most_ledger_elements = 3072 };
-static const double rst_ledger_residual = 0.01;
 
 /* A step of a walk that would end before it begins, over the step before. A tenth, or ten times: no
  * effect on the pair, 3e-5 on residual_x */

@@ -4,8 +4,9 @@
 
 #include <math.h>
 
-/* Ten times the work of an impact whose slip needs elements, for a solid of up to so many terms.
- * One that hardly rebounds may need more. Then its estimated error is above the tolerance. */
+/* Ten times the work of an impact whose slip needs elements, on a solid of up to `usual_terms`
+ * terms; more in proportion. One that hardly rebounds may need more. Then its estimated error is
+ * above the tolerance. */
 static const double most_work = 0.01, usual_terms = 30; /* nominal seconds */
 
 static int unit_numbers(const restitute_scene *scene, restitute_scene *unit, restitute_numbers *numbers,

@@ -5,8 +5,9 @@
  * Cases 0 to CORNERS-1 are corners: products of the ends of all ranges. All others are random:
  * delta1 and gamma in [1e-12, 1e12], psi in [1e-9, 1e9], chi in [1/3, 1e3], log-uniform, of all
  * classes of solids. A case depends on SEED and its number alone: `extremes METHOD 1 SEED NUMBER`
- * repeats it. Every 16th has a ledger; blocks of 64 go through restitute_solve_many as well, every
- * 16th of them; samples go through a second method. Exit status 0: no fault, 1: faults, 2: usage.
+ * repeats it. Every 16th has a ledger if psi is at least 1e-3; every 16th block of 64 goes through
+ * restitute_solve_many as well; samples go through a second method. Exit status 0: no fault, 1:
+ * faults, 2: usage.
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 #define PLAIN_CHECKS
