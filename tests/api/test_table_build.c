@@ -428,17 +428,14 @@ static restitute_material *series_of(size_t terms)
 
 static void many_terms_may_take_more_work(void **state)
 {
-    restitute_material *material;
-    restitute_table_options options = options_of(1);
+    restitute_material *material, *const series = series_of(300);
     (void)state;
     restitute_scene scene = ball_on(1, &material);
-    restitute_material_destroy(material);
-    scene.material = material = series_of(300);
-    options.speed[0] = options.speed[1] = 0.1;
-    options.tolerance = 1e-4;
-    restitute_table *const table = built(&scene, &options);
+    scene.material = series;
+    restitute_table *const table = table_of(&scene, 0.1, 0.1, 1e-4);
     CHECK(data_of(table).error_ex <= 1e-4, "%g", data_of(table).error_ex);
     restitute_table_destroy(table);
+    restitute_material_destroy(series);
     restitute_material_destroy(material);
 }
 

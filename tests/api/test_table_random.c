@@ -36,7 +36,8 @@ static struct extremes compare(const restitute_table *table, const restitute_tab
         CHECK(restitute_solve_scene(solver, &scene, &result, NULL, NULL, &error) == RESTITUTE_OK, "%s", error.message);
         const struct pair pair = look_up(table, scene.normal_speed, scene.tangential_speed);
         const double ez = fabs(pair.ez - result.ez), ex = fabs(pair.ex - result.ex);
-        CHECK(ez <= info->error_ez + result.error_ez && ex <= info->error_ex + result.error_ex, "v_n = %g, psi = %g: off by %g and %g, stated %g and %g",
+        CHECK(ez <= info->error_ez + result.error_ez && ex <= info->error_ex + result.error_ex,
+              "v_n = %g, psi = %g: off by %g and %g, stated %g and %g",
               scene.normal_speed, psi, ez, ex, info->error_ez, info->error_ex);
         worst.ez = fmax(worst.ez, ez);
         worst.ex = fmax(worst.ex, ex);
