@@ -13,6 +13,7 @@ import pytest
 
 import restitute
 from restitute.command import COMMANDS, main, options, parser_of, problem
+from restitute.command.partial import Partial
 
 DOCS = pathlib.Path(__file__).parents[2] / "docs"
 BALL = ["--radius", "0.005", "--friction", "0.3", "--speed", "0.1"]
@@ -202,6 +203,16 @@ def test_a_signal_ends_a_long_impact_at_once():
         process.wait(1.5)
     process.send_signal(signal.SIGINT)
     assert process.wait(20) in (-signal.SIGINT, 130)
+
+
+def test_a_signal_while_rows_are_written_is_not_lost(run, monkeypatch, tmp_path):
+    def commit(partial, rows, committed=Partial.commit):
+        committed(partial, rows)
+        os.kill(os.getpid(), signal.SIGINT)
+    monkeypatch.setattr(Partial, "commit", commit)
+    status, _, err = run("paper", "fig10", "--output", str(tmp_path))
+    assert status == 130 and "interrupted while fig10 is drawn" in err
+    assert sorted(os.listdir(tmp_path)) == ["fig10.csv", "fig10.csv.meta.json"]
 
 
 def test_a_signal_while_numpy_is_imported_ends_the_command_without_a_word(tmp_path):

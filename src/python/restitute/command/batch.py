@@ -78,6 +78,7 @@ class _Batch:
         self.arguments, self.output = arguments, arguments.output
         self.done = self.failures = 0
         self.partial: Any = None
+        self.late: list[int] = []
         self.sink: Any = None
         self.given = problem.values_of(arguments)
         self.solution = problem.solution(arguments, method="euler", tolerance=1e-3)
@@ -183,7 +184,7 @@ class _Batch:
         record = provenance.record(
             self.arguments, self.settings, self.rows.units(), rows=self.cases.rows,
             failed=int(np.count_nonzero(~self.rows.solved)), remarks=remarks, limits_passed=limits)
-        with options.signals_are(signal.SIG_IGN):
+        with options.signals_are(lambda number, frame: self.late.append(number)):
             if self.arguments.format != "csv":
                 files.write((self.output, getattr(self.rows, self.arguments.format)(record)))
                 if self.partial:
@@ -191,6 +192,11 @@ class _Batch:
             elif self.partial:
                 files.write((files.beside(self.output, ".meta.json"), provenance.text(record)),
                             between=lambda: self.partial.commit(self.cases.rows))
+
+    def interrupt(self):
+        """What was to interrupt the run while its files were written, interrupts it."""
+        for number in self.late:
+            signal.raise_signal(number)
 
     def report(self):
         """What is to be said of all rows, the figure, and the exit status."""
@@ -212,6 +218,7 @@ class _Batch:
             verb = "exceed the limit" if option else "are flagged"
             say(f"remark: {limits[name]} {of} {verb} {name}: {text}")
         if self.arguments.figure:
+            self.interrupt()
             self._draw()
         failed = np.count_nonzero(~self.rows.solved)
         if failed:

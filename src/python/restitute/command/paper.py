@@ -144,6 +144,7 @@ class _Made:
         self.figure.pairs = SimpleNamespace(ez=ez, ex=ex, contact_time=contact_time,
                                             flags=rows.flags(), status=rows.solved - 1)
         try:
+            done.interrupt()
             checks, ax = self.figure.checks(), self.figure.draw()
             drawn = [(path, files.image(ax, path)) for path in map(self.path.__add__, _DRAWN)]
         except KeyboardInterrupt:
