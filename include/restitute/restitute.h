@@ -477,10 +477,10 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, result)
 
 /** Where the energy went (docs/theory.md, section 8), as fractions of the energy that came in: of
  *  (1/2) m v_z0^2 in z, and of the energy of the contact point's tangential motion in x. Each
- *  account adds up to 1 - residual. The solid is that whose terms are merged as the tolerance
- *  allows. Where slip is as short as the relaxation of merged terms, friction, viscous and left
- *  may differ by up to 0.06 from those by all terms. With psi below an eighth of the
- *  tolerance slip is left out: then left has what friction takes. */
+ *  account adds up to 1 - residual. Where slip is as short as the relaxation of terms that
+ *  are merged for the pair, the ledger is that of a second run with fewer terms merged, so that
+ *  merging moves less than 0.01 between friction, viscous and left. With psi below an eighth of
+ *  the tolerance slip is left out: then left has what friction takes. */
 typedef struct restitute_ledger {
     size_t struct_size;                  /**< set by @ref restitute_ledger_init */
     double rebound_z, viscous_z, left_z; /**< kinetic after; dissipated in contact; left in the

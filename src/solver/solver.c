@@ -24,6 +24,8 @@ struct restitute_solver {
 
 /* Share of the tolerance for the method by which merged terms may change the pair. */
 static const double merging_share = 0.1;
+/* Share of the tangential energy, which is psi^2, by which they may change its division. */
+static const double ledger_share = 0.01;
 
 /* Slip is left out where it changes e_x by less than this part of the caller's tolerance. The
  * method gets the rest. Twice as much would ask it for a third more accuracy. */
@@ -126,9 +128,9 @@ struct merged {
     double slow_rate, fast_bound; /* bound: slow_rate * contact time + fast_bound */
 };
 
-/* Merge terms whose relaxation does not matter in this contact. `window_factor`: its longest
- * duration over that of a compression. */
-static struct merged merge(struct rst_problem *problem, double window_factor)
+/* Merge terms whose relaxation does not matter in this contact: all together they may change the
+ * energies by `allowed`. `window_factor`: its longest duration over that of a compression. */
+static struct merged merge(struct rst_problem *problem, double allowed, double window_factor)
 {
     struct rst_solid *s = &problem->solid;
     struct merged merged = {0};
@@ -137,8 +139,8 @@ static struct merged merge(struct rst_problem *problem, double window_factor)
     double depth = depth_margin * rst_likely_depth(s->g_inf, s->eta, s->n_terms, s->g, s->tau);
     double time = rst_elastic_contact_time() / 2 * depth; /* others are checked by what comes out */
     double share = problem->mode == RST_FRICTIONLESS ? 1 : fmax(1, problem->chi);
-    rst_merge_terms(share, window_factor * time, depth, merging_share * problem->tolerance, &s->g_inf, &s->eta,
-                    &s->n_terms, s->g, s->tau, &merged.slow_rate, &merged.fast_bound);
+    rst_merge_terms(share, window_factor * time, depth, allowed, &s->g_inf, &s->eta, &s->n_terms, s->g, s->tau,
+                    &merged.slow_rate, &merged.fast_bound);
     merged.terms = before - s->n_terms;
     return merged;
 }
@@ -239,22 +241,46 @@ void rst_solver_keep_motion(restitute_solver *solver)
     solver->workspace.keeps_motion = 1;
 }
 
-/* Solve with merged terms. If the contact lasts longer than the window for slow terms, solve it
- * again with these terms. */
-static int solve_merged(restitute_solver *solver, struct input *input, int keep_ledger, struct rst_problem *problem,
-                        struct rst_outcome *outcome, struct merged *merged, restitute_error *error)
+/* Solve with merged terms, which may change energies by `most` and by their share of the tolerance.
+ * If the contact lasts longer than the window for slow terms, solve it again with these terms. */
+static int solve_merged(restitute_solver *solver, struct input *input, int keep_ledger, double most,
+                        struct rst_problem *problem, struct rst_outcome *outcome, struct merged *merged,
+                        restitute_error *error)
 {
     double window = contact_in_compressions;
     for (;;) {
         int status = make_problem(solver, input, problem, error);
         if (status) return status;
-        *merged = solver->options.method->takes_all_terms ? (struct merged){0} : merge(problem, window);
+        const double allowed = fmin(most, merging_share * problem->tolerance);
+        *merged = solver->options.method->takes_all_terms ? (struct merged){0} : merge(problem, allowed, window);
         status = solve_problem(solver, keep_ledger, problem, outcome, error);
         if (status < 0 || merged->slow_rate <= 0 || outcome->sunk) return status;
-        if (merged->slow_rate * outcome->contact_time <= merging_share * problem->tolerance) return status;
+        if (merged->slow_rate * outcome->contact_time <= allowed) return status;
         if (rst_time_left(problem) <= 0) return status; /* its estimate includes the bound of the merged terms */
         window *= 8;
     }
+}
+
+/* The ledger. Merged terms that do not matter for the pair may where slip is as short as their
+ * relaxation (docs/theory.md, section 8): then the ledger is that of another run. */
+static int write_ledger(restitute_solver *solver, struct input *input, const struct rst_problem *problem,
+                        const struct rst_outcome *outcome, const struct merged *merged, restitute_ledger *ledger,
+                        restitute_error *error)
+{
+    const double allowed = ledger_share * problem->psi * problem->psi;
+    struct rst_problem other;
+    struct rst_outcome followed;
+    struct merged fewer;
+    restitute_error why;
+    restitute_ledger_init(ledger);
+    if (problem->mode != RST_PARTIAL_SLIP || merged->fast_bound <= allowed) {
+        rst_write_ledger(problem, outcome, ledger);
+        return RESTITUTE_OK;
+    }
+    const int status = solve_merged(solver, input, 1, allowed, &other, &followed, &fewer, &why);
+    if (status < 0) return rst_report(error, status, "ledger: %s", why.message);
+    rst_write_ledger(&other, &followed, ledger);
+    return RESTITUTE_OK;
 }
 
 static int record(restitute_solver *solver, const struct rst_problem *problem, const struct rst_outcome *outcome,
@@ -313,7 +339,7 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
     rst_done(error);
     const double limit = time_limit(&solver->options);
     input->deadline = limit < INFINITY ? rst_clock() + limit : limit;
-    int status = solve_merged(solver, input, ledger != NULL, &problem, &outcome, &merged, error);
+    int status = solve_merged(solver, input, ledger != NULL, INFINITY, &problem, &outcome, &merged, error);
     if (status < 0) return status;
     if (history) {
         int recorded = record(solver, &problem, &outcome, history->capacity, &samples, error);
@@ -322,12 +348,12 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
     double slow = merged.slow_rate > 0 ? merged.slow_rate * outcome.followed_time : 0;
     rst_write_result(&problem, &outcome, merged.terms, slow + merged.fast_bound, &found);
     rst_judge_validity(&solver->options, input->scene, &input->numbers, &outcome, &found);
-    if (result) RST_GIVE(&found, result);
     if (ledger) {
-        restitute_ledger_init(&energies);
-        rst_write_ledger(&problem, &outcome, &energies);
+        const int written = write_ledger(solver, input, &problem, &outcome, &merged, &energies, error);
+        if (written < 0) return written;
         RST_GIVE(&energies, ledger);
     }
+    if (result) RST_GIVE(&found, result);
     if (history) {
         RST_TAKE(history, &series, history, NULL); /* checked above */
         rst_write_history(&samples, &problem.units, &series);
