@@ -10,24 +10,13 @@
 #include <jansson.h>
 #include <stdio.h>
 
-#include <restitute/files.h>
-
 #include "files/number.h"
 
 #define STEM "test_files_allocation_failures"
-#define JSON STEM ".json"
-#define CSV STEM ".csv"
+#include "../support/material_files.h"
 
 static restitute_error error;
 static const char *path; /* of the file to read */
-static char place;
-#define UNTOUCHED ((void *)&place)
-
-static void write_text(const char *to, const char *text)
-{
-    FILE *file = fopen(to, "wb");
-    CHECK(file && fputs(text, file) >= 0 && fclose(file) == 0, "cannot write %s", to);
-}
 
 static int material_read(struct given *given)
 {
@@ -58,7 +47,7 @@ static int number_read(struct given *given)
     return status;
 }
 
-#define HEAD(model) "{\"name\": \"n\", \"poisson_ratio\": 0.25, \"density_kg_m3\": 900, \"model\": \"" model "\""
+#define DENSITY ", \"density_kg_m3\": 900"
 
 /* None for Jansson either. */
 static void *no_memory(size_t size)
@@ -72,13 +61,12 @@ static void materials(void **state)
 {
     (void)state;
     static const char *const texts[] = {
-        HEAD("elastic") ", \"modulus_pa\": 1e6}",
-        HEAD("standard_solid") ", \"source\": \"s\", \"modulus1_pa\": 1e6, \"modulus2_pa\": 2e6, \"viscosity_pa_s\": "
-                               "50}",
-        HEAD("prony") ", \"terms\": [{\"tau_s\": 1e-3, \"modulus_pa\": 1e6}, {\"tau_s\": 1e-2, \"modulus_pa\": 2e6}]}",
-        HEAD("prony") ", \"equilibrium_modulus_pa\": 1e5, \"prony_csv\": \"" CSV "\"}"};
-    const struct subject reading = {"material_read", NULL, material_read, NULL, 0, 0};
-    if (!CAN_FAIL) skip();
+        HEAD("elastic") DENSITY ", \"modulus_pa\": 1e6}",
+        HEAD("standard_solid") DENSITY ", \"source\": \"s\", \"modulus1_pa\": 1e6, "
+                                       "\"modulus2_pa\": 2e6, \"viscosity_pa_s\": 50}",
+        HEAD("prony") DENSITY ", \"terms\": [" TERM("1e-3", "1e6") ", " TERM("1e-2", "2e6") "]}",
+        HEAD("prony") DENSITY ", \"equilibrium_modulus_pa\": 1e5, \"prony_csv\": \"" CSV "\"}"};
+    const struct subject reading = {"material_read", .call = material_read};
     write_text(CSV, "tau_s,G_Pa\n1e-3,1e6\n1e-2,2e6\n\"1e-1\",3e6\n");
     path = CSV;
     fail_each_allocation(&reading);
@@ -98,21 +86,11 @@ static void materials(void **state)
 static void numbers(void **state)
 {
     (void)state;
-    const struct subject number = {"number_read", NULL, number_read, NULL, 0, 0};
-    if (!CAN_FAIL) skip();
-    fail_each_allocation(&number);
-}
-
-static int remove_files(void **state)
-{
-    (void)state;
-    remove(JSON);
-    remove(CSV);
-    return 0;
+    FAIL_EACH({"number_read", .call = number_read});
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(materials), cmocka_unit_test(numbers)};
-    return cmocka_run_group_tests(tests, NULL, remove_files);
+    return IF_CAN_FAIL(cmocka_run_group_tests(tests, NULL, remove_files));
 }

@@ -15,14 +15,13 @@ static int fit_with(size_t n, int model, int loss, struct given *given)
     restitute_scene scenes[N];
     restitute_fit_point points[N];
     restitute_fit_options options = fit_options(model);
-    restitute_fit_result r;
+    PREPARED(fit_result, r);
     restitute_error error;
     int status;
     drops(n, 0.1, 0.4, scenes, points);
     for (size_t i = 0; i < n; i++)
         points[i].contact_time = times[i],
         points[i].ez = model == RESTITUTE_FIT_MODEL_ELASTIC ? NAN : 0.9 - 0.01 * (double)i;
-    restitute_fit_result_init(&r);
     options.starts = 1, options.loss = loss;
     r.rms = 77;
     ARMED(status, restitute_fit(n, points, &options, &r, &error));
@@ -55,10 +54,9 @@ static int curve(struct given *given)
 {
     static const double f[] = {0.01, 0.1, 1, 10, 100}, storage[] = {1e5, 2e5, 5e5, 1e6, 1.2e6},
                         loss[] = {5e4, 1e5, 2e5, 2e5, 1e5};
-    restitute_dma_result r;
+    PREPARED(dma_result, r);
     restitute_error error;
     int status;
-    restitute_dma_result_init(&r);
     r.rms = 77;
     ARMED(status, restitute_dma_fit(5, f, storage, loss, NULL, NULL, &r, &error));
     CHECK(status >= 0 || r.rms == 77, "touched");
@@ -72,31 +70,24 @@ static int curve(struct given *given)
 
 static void every_call(void **state)
 {
-    static const struct subject subjects[] = {{"elastic", NULL, elastic, NULL, 6, 0},
-                                              {"damped", NULL, damped, NULL, 3, 0},
-                                              {"curve", NULL, curve, NULL, 6, 0}};
     (void)state;
-    if (!CAN_FAIL) skip();
     allocator.ours_alone = 1;
-    for (size_t i = 0; i < sizeof subjects / sizeof *subjects; i++)
-        fail_each_allocation(&subjects[i]);
+    FAIL_EACH({"elastic", .call = elastic, .stride = 6}, {"damped", .call = damped, .stride = 3},
+              {"curve", .call = curve, .stride = 6});
     allocator.ours_alone = 0;
 }
 
 /* The first 30 make the workspaces of the first fit, later ones would be those of a step. */
 static void every_call_of_gsl(void **state)
 {
-    static const struct subject subjects[] = {{"plain", NULL, plain, NULL, 30, 0}, {"curve", NULL, curve, NULL, 30, 0}};
     (void)state;
-    if (!CAN_FAIL) skip();
     allocator.others_alone = allocator.others_lose = 1;
-    for (size_t i = 0; i < sizeof subjects / sizeof *subjects; i++)
-        fail_each_allocation(&subjects[i]);
+    FAIL_EACH({"plain", .call = plain, .stride = 30}, {"curve", .call = curve, .stride = 30});
     allocator.others_alone = allocator.others_lose = 0;
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_call), cmocka_unit_test(every_call_of_gsl)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return IF_CAN_FAIL(cmocka_run_group_tests(tests, NULL, NULL));
 }

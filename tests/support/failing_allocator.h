@@ -1,6 +1,6 @@
 /* An allocator that fails on demand: a program that includes this defines malloc and related
  * functions in front of those of the C library. The sanitizers do the same. With them, or with
- * another C library than that of GNU, nothing can fail: CAN_FAIL is 0, and tests are skipped.
+ * another C library than that of GNU, nothing can fail: CAN_FAIL is 0, IF_CAN_FAIL runs nothing.
  *
  * A subject is a call of the library. It is called with a failure of its first allocation, then of
  * its second, and so on until none fails. Then the same with a failure of all allocations from
@@ -28,10 +28,7 @@
 #ifndef CAN_FAIL
 #define CAN_FAIL 1
 #endif
-#if !CAN_FAIL
-#undef skip
-#define skip() (print_message("skipped: no allocation can be made to fail here\n"), _skip(__FILE__, __LINE__))
-#endif
+#define IF_CAN_FAIL(run) (CAN_FAIL ? (run) : (printf("skipped: no allocation can be made to fail here\n"), 0))
 
 /* Allocations are counted while armed, with `ours_alone` only those of our libraries,
  * with `others_alone` all others. Number `failing` fails, and with `for_good` all after it. None
@@ -93,30 +90,20 @@ static void *counted(void *block)
     return block;
 }
 
-SEEN_BY_LIBRARIES void *malloc(size_t size)
-{
-    return allocation_fails(__builtin_return_address(0)) ? NULL : counted(__libc_malloc(size));
-}
-
-SEEN_BY_LIBRARIES void *calloc(size_t count, size_t size)
-{
-    return allocation_fails(__builtin_return_address(0)) ? NULL : counted(__libc_calloc(count, size));
-}
+#define ALLOCATES(declared, call)                                                                                      \
+    SEEN_BY_LIBRARIES void *declared                                                                                   \
+    {                                                                                                                  \
+        return allocation_fails(__builtin_return_address(0)) ? NULL : counted(call);                                   \
+    }
+ALLOCATES(malloc(size_t size), __libc_malloc(size))
+ALLOCATES(calloc(size_t count, size_t size), __libc_calloc(count, size))
+ALLOCATES(memalign(size_t alignment, size_t size), __libc_memalign(alignment, size))
+ALLOCATES(aligned_alloc(size_t alignment, size_t size), __libc_memalign(alignment, size))
 
 SEEN_BY_LIBRARIES void *realloc(void *block, size_t size)
 {
     if (allocation_fails(__builtin_return_address(0))) return NULL;
     return block ? __libc_realloc(block, size) : counted(__libc_realloc(block, size));
-}
-
-SEEN_BY_LIBRARIES void *aligned_alloc(size_t alignment, size_t size)
-{
-    return allocation_fails(__builtin_return_address(0)) ? NULL : counted(__libc_memalign(alignment, size));
-}
-
-SEEN_BY_LIBRARIES void *memalign(size_t alignment, size_t size)
-{
-    return allocation_fails(__builtin_return_address(0)) ? NULL : counted(__libc_memalign(alignment, size));
 }
 
 SEEN_BY_LIBRARIES int posix_memalign(void **block, size_t alignment, size_t size)
@@ -146,6 +133,23 @@ static inline void spare(const char *function)
 /* A call under test, armed. */
 #define ARMED(status, call) (allocator.armed = 1, (status) = (call), allocator.armed = 0)
 
+/* What is no object of the library: where calls put one, unless they fail. */
+#define UNTOUCHED ((void *)(uintptr_t)&allocator)
+
+/* Of a subject, the function `name`, whose call makes a restitute_TYPE, `made`; the rest gives what
+ * is in it, and destroys it. */
+#define MAKES(TYPE, name, call, ...)                                                                                   \
+    static int name(struct given *given)                                                                               \
+    {                                                                                                                  \
+        int status;                                                                                                    \
+        restitute_##TYPE *made = UNTOUCHED;                                                                            \
+        ARMED(status, call);                                                                                           \
+        CHECK(status >= 0 || made == UNTOUCHED, #TYPE " touched");                                                     \
+        give(given, status);                                                                                           \
+        if (status >= 0) __VA_ARGS__;                                                                                  \
+        return status;                                                                                                 \
+    }
+
 enum { subject_numbers = 512 };
 
 /* What a call gave, as numbers that two runs must share bit by bit. */
@@ -160,15 +164,14 @@ static inline void give(struct given *given, double number)
     given->number[given->count++] = number;
 }
 
-/* `begin` and `end`, both optional, make and destroy the objects that are used; `call` makes the
- * call with ARMED, checks that outputs are untouched if it failed, and else gives what came out.
+/* `call` makes the call with ARMED, checks that outputs are untouched if it failed, and else gives
+ * what came out. `begin` and `end`, both optional, make and destroy the objects that it uses.
  * `stride`: of the failing allocations all up to this number are tried, and about as many of each
  * that are twice as late; 0: all. `settles`: calls behind the second take no more memory. */
 struct subject {
     const char *name;
-    void (*begin)(void);
     int (*call)(struct given *given);
-    void (*end)(void);
+    void (*begin)(void), (*end)(void);
     long stride;
     int settles;
 };
@@ -230,5 +233,13 @@ static inline void fail_each_allocation(const struct subject *s)
     allocator.for_good = 0;
     print_message("%s: %ld allocations\n", s->name, all);
 }
+
+/* Subjects, each in braces. */
+#define FAIL_EACH(...)                                                                                                 \
+    do {                                                                                                               \
+        const struct subject all_[] = {__VA_ARGS__};                                                                   \
+        for (size_t i_ = 0; i_ < sizeof all_ / sizeof *all_; i_++)                                                     \
+            fail_each_allocation(&all_[i_]);                                                                           \
+    } while (0)
 
 #endif
