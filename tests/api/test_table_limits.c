@@ -3,116 +3,119 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../support/table.h"
 
-/* The speeds from which on limits are passed, and the flags of single places, are those of the
- * impacts. */
-static void limits_travel(void **state)
-{
-    restitute_material *material;
+/* A table of a ball on a solid, a solver of its impacts, to 1e-4 both, and what was compared. */
+struct limits {
+    restitute_scene scene;
+    double fastest; /* m/s */
+    restitute_table *table;
     restitute_solver *solver;
+    uint64_t random;
+    int seen, compared; /* flags, impacts */
+};
+
+/* The solid stays the caller's. */
+static struct limits limits_of(const restitute_material *material, double fastest, uint64_t seed)
+{
+    restitute_material *rubber;
+    struct limits l = {ball_on(1, &rubber), fastest, .random = seed};
     restitute_options precise = to_tolerance(1e-4);
     restitute_table_options options = options_of(1);
-    restitute_error error;
-    uint64_t random = 9;
-    (void)state;
-    restitute_scene scene = ball_on(1, &material);
-    options.speed[1] = 100;
-    restitute_table *table = built(&scene, &options);
-    const restitute_table_info info = describe(table);
-    CHECK(info.fast_speed > 0.01 && info.fast_speed < 100, "fast from %g on", info.fast_speed);
+    options.speed[1] = fastest;
     precise.method = restitute_method_sync();
-    assert_int_equal(restitute_solver_create(&precise, &solver, &error), RESTITUTE_OK);
-    for (int i = 0; i < 200; i++) {
-        restitute_result r;
-        restitute_result_init(&r);
-        scene.normal_speed = random_log(&random, 1e-2, 100);
-        scene.tangential_speed = scene.normal_speed * random_log(&random, 0.1, 30);
-        CHECK(restitute_solve_scene(solver, &scene, &r, NULL, NULL, &error) >= 0, "%s", error.message);
-        /* ratios between nodes are powers of the speed: within two hundredths of a limit nothing is
-         * checked */
-        const double ratio[3] = {r.speed_ratio / 0.1, r.radius_ratio / 0.1, r.displacement_ratio / 0.3};
-        if (fabs(ratio[0] - 1) < 0.02 || fabs(ratio[1] - 1) < 0.02 || fabs(ratio[2] - 1) < 0.02) continue;
-        int flags;
-        CHECK(restitute_table_flags(table, NULL, scene.normal_speed, scene.tangential_speed, &flags, &error) == 0, "%s",
-              error.message);
-        CHECK(flags == r.flags, "%g m/s, %g m/s", scene.normal_speed, scene.tangential_speed);
-        CHECK((scene.normal_speed > info.fast_speed) == (ratio[0] > 1), "%g m/s: fast", scene.normal_speed);
-        CHECK((scene.normal_speed > info.large_contact_speed) == (ratio[1] > 1), "%g m/s: large", scene.normal_speed);
-    }
-    assert_int_equal(restitute_table_flags(table, NULL, 1, 1, NULL, NULL), RESTITUTE_ERROR_NULL);
-    restitute_solver_destroy(solver);
-    restitute_table_destroy(table);
-    restitute_material_destroy(material);
+    l.scene.material = material;
+    l.table = built(&l.scene, &options);
+    l.solver = make_solver(&precise);
+    restitute_material_destroy(rubber);
+    return l;
 }
 
-/* The flags of an impact by the solver, and how near its ratios are to their limits. */
-static int flags_of(restitute_solver *solver, const restitute_scene *scene, double *nearest)
+static void end_limits(const struct limits *l)
 {
-    restitute_result r;
+    restitute_solver_destroy(l->solver);
+    restitute_table_destroy(l->table);
+}
+
+/* An impact of the scene, with any speeds: the flags of the table for a contact are those by the
+ * solver, whose result is kept. 0: not compared, as a ratio is within two hundredths of its limit.
+ * Ratios between nodes are powers of the speed. */
+static int compare_flags(struct limits *l, restitute_scene *scene, const restitute_table_contact *contact,
+                         restitute_result *r)
+{
     restitute_error error;
     double ends[2];
-    restitute_result_init(&r);
-    CHECK(restitute_solve_scene(solver, scene, &r, NULL, NULL, &error) >= 0, "%s", error.message);
+    int flags;
+    scene->normal_speed = random_log(&l->random, 1e-2, l->fastest) / (contact ? contact->speed_factor : 1);
+    scene->tangential_speed = scene->normal_speed * random_log(&l->random, 0.1, 30);
+    restitute_result_init(r);
+    CHECK(restitute_solve_scene(l->solver, scene, r, NULL, NULL, &error) >= 0, "%s", error.message);
     restitute_material_window(scene->material, &ends[0], &ends[1], NULL);
-    const double over[] = {r.speed_ratio / 0.1, r.radius_ratio / 0.1, r.displacement_ratio / 0.3,
-                           r.contact_time / ends[0], r.contact_time / ends[1]};
-    *nearest = INFINITY;
+    const double over[] = {r->speed_ratio / 0.1, r->radius_ratio / 0.1, r->displacement_ratio / 0.3,
+                           r->contact_time / ends[0], r->contact_time / ends[1]};
     for (int i = 0; i < 5; i++)
-        *nearest = fmin(*nearest, fabs(over[i] - 1));
-    return r.flags;
+        if (fabs(over[i] - 1) < 0.02) return 0;
+    CHECK(restitute_table_flags(l->table, contact, scene->normal_speed, scene->tangential_speed, &flags, &error) == 0,
+          "%s", error.message);
+    CHECK(flags == r->flags, "R %g, %g m/s, %g m/s: %d, not %d", scene->radius1, scene->normal_speed,
+          scene->tangential_speed, flags, r->flags);
+    l->seen |= flags, l->compared++;
+    return 1;
 }
 
-/* Of another size, friction, partner and temperature: all that the contact is set from. Impacts
- * within two hundredths of a limit are left out, as above. */
-static void limits_travel_to_other_contacts(void **state)
+/* Of another size, friction, partner and solid: all that the contact is set from. */
+static void compare_others(struct limits *l, const restitute_material *const materials[3], int n, double extent)
 {
-    restitute_material *material, *warm, *stiff;
-    restitute_solver *solver;
-    restitute_options precise = to_tolerance(1e-4);
-    restitute_table_options options = options_of(1);
-    restitute_error error;
-    uint64_t random = 10;
-    int seen = 0, compared = 0;
-    (void)state;
-    restitute_scene scene = ball_on(1, &material);
-    restitute_material_destroy(material);
-    restitute_material_standard_solid(1e6, 1e6, 300, 0.4, &material, NULL);
-    restitute_material_set_window(material, 2e-3, 1e-2, NULL);
-    restitute_material_shifted(material, 0.3, &warm, NULL);
-    restitute_material_standard_solid(3e6, 3e6, 900, 0.4, &stiff, NULL); /* the same times */
-    restitute_material_set_window(stiff, 2e-3, 1e-2, NULL);
-    scene.material = material;
-    options.speed[1] = 100;
-    restitute_table *table = built(&scene, &options);
-    precise.method = restitute_method_sync();
-    assert_int_equal(restitute_solver_create(&precise, &solver, &error), RESTITUTE_OK);
-    const restitute_material *const materials[] = {material, warm, stiff};
-    for (int i = 0; i < 400; i++) {
-        restitute_table_contact contact;
-        restitute_scene other = scene;
-        double nearest;
-        int flags;
-        const double size = random_log(&random, 0.4, 2);
+    for (int i = 0; i < n; i++) {
+        PREPARED(table_contact, contact);
+        restitute_error error;
+        restitute_result r;
+        restitute_scene other = l->scene;
+        const double size = random_log(&l->random, 1 / extent, extent);
         other.material = materials[i % 3];
         other.radius1 *= size, other.mass1 *= size * size * size;
         other.friction = (i / 3) % 3 ? 0.1 : 0;
         if ((i / 9) % 2) other.deformable = RESTITUTE_BOTH_BODIES_DEFORM;
         if ((i / 18) % 2) other.wave_density = 900;
-        restitute_table_contact_init(&contact);
-        CHECK(restitute_table_contact_set(table, &other, &contact, &error) == RESTITUTE_OK, "%s", error.message);
-        other.normal_speed = random_log(&random, 1e-2, 100) / contact.speed_factor;
-        other.tangential_speed = other.normal_speed * random_log(&random, 0.1, 30);
-        const int expected = flags_of(solver, &other, &nearest);
-        if (nearest < 0.02) continue;
-        CHECK(restitute_table_flags(table, &contact, other.normal_speed, other.tangential_speed, &flags, &error) == 0,
-              "%s", error.message);
-        CHECK(flags == expected, "%d: size %g, %g m/s, %g m/s: %d, not %d", i, size, other.normal_speed,
-              other.tangential_speed, flags, expected);
-        seen |= expected, compared++;
+        CHECK(restitute_table_contact_set(l->table, &other, &contact, &error) == RESTITUTE_OK, "%s", error.message);
+        compare_flags(l, &other, &contact, &r);
     }
-    CHECK(seen == 31 && compared > 300, "flags %d of %d impacts", seen, compared);
-    restitute_solver_destroy(solver);
-    restitute_table_destroy(table);
-    restitute_material_destroy(material);
+}
+
+/* The speeds from which on limits are passed, and the flags of single places, are those of the
+ * impacts. */
+static void limits_travel(void **state)
+{
+    restitute_material *rubber = NULL;
+    (void)state;
+    restitute_material_standard_solid(1e6, 1e6, 300, 0.5, &rubber, NULL);
+    struct limits l = limits_of(rubber, 100, 9);
+    const restitute_table_info info = describe(l.table);
+    CHECK(info.fast_speed > 0.01 && info.fast_speed < 100, "fast from %g on", info.fast_speed);
+    for (int i = 0; i < 200; i++) {
+        restitute_result r;
+        if (!compare_flags(&l, &l.scene, NULL, &r)) continue;
+        const double v = l.scene.normal_speed;
+        CHECK((v > info.fast_speed) == (r.speed_ratio > 0.1), "%g m/s: fast", v);
+        CHECK((v > info.large_contact_speed) == (r.radius_ratio > 0.1), "%g m/s: large", v);
+    }
+    assert_int_equal(restitute_table_flags(l.table, NULL, 1, 1, NULL, NULL), RESTITUTE_ERROR_NULL);
+    end_limits(&l);
+    restitute_material_destroy(rubber);
+}
+
+static void limits_travel_to_other_contacts(void **state)
+{
+    restitute_material *solid, *warm, *stiff;
+    (void)state;
+    restitute_material_standard_solid(1e6, 1e6, 300, 0.4, &solid, NULL);
+    restitute_material_set_window(solid, 2e-3, 1e-2, NULL);
+    restitute_material_shifted(solid, 0.3, &warm, NULL);
+    restitute_material_standard_solid(3e6, 3e6, 900, 0.4, &stiff, NULL); /* the same times */
+    restitute_material_set_window(stiff, 2e-3, 1e-2, NULL);
+    struct limits l = limits_of(solid, 100, 10);
+    compare_others(&l, (const restitute_material *[]){solid, warm, stiff}, 400, 2.5);
+    CHECK(l.seen == 31 && l.compared > 300, "flags %d of %d impacts", l.seen, l.compared);
+    end_limits(&l);
+    restitute_material_destroy(solid);
     restitute_material_destroy(warm);
     restitute_material_destroy(stiff);
 }
@@ -121,39 +124,12 @@ static void limits_travel_to_other_contacts(void **state)
 static void limits_of_an_elastic_solid_travel(void **state)
 {
     restitute_material *steel;
-    restitute_solver *solver;
-    restitute_options precise = to_tolerance(1e-4);
-    restitute_table_options options = options_of(1);
-    restitute_error error;
-    uint64_t random = 11;
     (void)state;
-    restitute_scene scene = ball_on(1, &steel);
-    restitute_material_destroy(steel);
     restitute_material_elastic(1e8, 0.3, &steel, NULL);
     restitute_material_set_window(steel, 2e-4, 1e-3, NULL);
-    scene.material = steel;
-    restitute_table *table = built(&scene, &options);
-    precise.method = restitute_method_sync();
-    assert_int_equal(restitute_solver_create(&precise, &solver, &error), RESTITUTE_OK);
-    for (int i = 0; i < 60; i++) {
-        restitute_table_contact contact;
-        restitute_scene other = scene;
-        double nearest;
-        int flags;
-        const double size = random_log(&random, 0.2, 5);
-        other.radius1 *= size, other.mass1 *= size * size * size;
-        restitute_table_contact_init(&contact);
-        CHECK(restitute_table_contact_set(table, &other, &contact, &error) == RESTITUTE_OK, "%s", error.message);
-        other.normal_speed = random_log(&random, 1e-2, 10);
-        other.tangential_speed = other.normal_speed * random_log(&random, 0.1, 30);
-        const int expected = flags_of(solver, &other, &nearest);
-        if (nearest < 0.02) continue;
-        CHECK(restitute_table_flags(table, &contact, other.normal_speed, other.tangential_speed, &flags, &error) == 0,
-              "%s", error.message);
-        CHECK(flags == expected, "size %g, %g m/s: %d, not %d", size, other.normal_speed, flags, expected);
-    }
-    restitute_solver_destroy(solver);
-    restitute_table_destroy(table);
+    struct limits l = limits_of(steel, 10, 11);
+    compare_others(&l, (const restitute_material *[]){steel, steel, steel}, 60, 5);
+    end_limits(&l);
     restitute_material_destroy(steel);
 }
 
