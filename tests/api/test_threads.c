@@ -52,7 +52,8 @@ static void solve_by(struct job *job, const restitute_method *method, double tol
 static void core(struct job *job)
 {
     restitute_impact impacts[5];
-    restitute_result results[5], result;
+    restitute_result results[5];
+    PREPARED(result, result);
     restitute_options options = to_tolerance(1e-3);
     solve_by(job, restitute_method_euler(), 1e-3);
     solve_by(job, restitute_method_sync(), 1e-5);
@@ -63,7 +64,6 @@ static void core(struct job *job)
     }
     MUST(restitute_solve_many(5, impacts, &options, results, NULL, &error));
     give(job, results[4].ex);
-    restitute_result_init(&result);
     pthread_mutex_lock(&shared.lock);
     MUST(restitute_plan_solve(shared.plan, 0.4, &result, NULL, NULL, &error));
     pthread_mutex_unlock(&shared.lock);
@@ -73,15 +73,9 @@ static void core(struct job *job)
 #ifdef RESTITUTE_WITH_TABLE
 static restitute_table *build_table(double low, double high, double tolerance)
 {
-    restitute_table *table = NULL;
-    restitute_table_options options;
-    restitute_table_options_init(&options);
-    options.speed[0] = low;
-    options.speed[1] = high;
-    options.tolerance = tolerance;
-    options.threads = 2;
-    MUST(restitute_table_build(&shared.scene, &options, &table, &error));
-    return table;
+    restitute_table_options options = options_of(2);
+    options.speed[0] = low, options.speed[1] = high, options.tolerance = tolerance;
+    return built(&shared.scene, &options);
 }
 #endif
 
@@ -90,9 +84,8 @@ static void components(struct job *job)
     (void)job;
 #ifdef RESTITUTE_WITH_CONTACT
     double state[48] = {0};
-    restitute_contact_motion motion;
+    PREPARED(contact_motion, motion);
     restitute_contact_force force;
-    restitute_contact_motion_init(&motion);
     motion.radius = 0.01;
     motion.friction = 0.3;
     motion.velocity[0] = motion.velocity[2] = 1e-2;
