@@ -60,28 +60,9 @@ MAKES(solver, solver_create, restitute_solver_create(&options, &made, &error), r
 /* What the solver solves: a scene on rubber, sticking or slipping at first, or a dimensionless
  * impact. */
 static restitute_scene scene;
-static int all_outputs;
-
-static int solve_scene_once(struct given *given)
-{
-    struct outputs o, fresh;
-    int status;
-    prepare(&o, &fresh);
-    ARMED(status, restitute_solve_scene(solver, &scene, &o.result, all_outputs ? &o.ledger : NULL,
-                                        all_outputs ? &o.history : NULL, &error));
-    return give_outputs(status, &o, &fresh, given);
-}
-
-static int solve_impact_once(struct given *given)
-{
-    struct outputs o, fresh;
-    int status;
-    const restitute_impact impact = impact_of(7.0 / 6, 0.7, 1, 1);
-    prepare(&o, &fresh);
-    ARMED(status, restitute_solve(solver, &impact, &o.result, all_outputs ? &o.ledger : NULL,
-                                  all_outputs ? &o.history : NULL, &error));
-    return give_outputs(status, &o, &fresh, given);
-}
+static restitute_impact impact;
+SOLVES(solve_scene_once, restitute_solve_scene(solver, &scene, &o.result, WANTED(ledger), WANTED(history), &error))
+SOLVES(solve_impact_once, restitute_solve(solver, &impact, &o.result, WANTED(ledger), WANTED(history), &error))
 
 /* Plans for the same scene and impact. */
 static restitute_plan *plan;
@@ -99,15 +80,7 @@ static void end_plan(void)
     plan = NULL;
 }
 
-static int plan_solve(struct given *given)
-{
-    struct outputs o, fresh;
-    int status;
-    prepare(&o, &fresh);
-    ARMED(status, restitute_plan_solve(plan, 0.6, &o.result, all_outputs ? &o.ledger : NULL,
-                                       all_outputs ? &o.history : NULL, &error));
-    return give_outputs(status, &o, &fresh, given);
-}
+SOLVES(plan_solve, restitute_plan_solve(plan, 0.6, &o.result, WANTED(ledger), WANTED(history), &error))
 
 /* A ball that flies against one at rest. */
 static int collide(struct given *given)
@@ -166,29 +139,19 @@ static void method_sync(void **state)
 
 /* ---- one call, many impacts */
 
-static int give_pair(int status, const double pair[2], struct given *given)
-{
-    CHECK(status >= 0 || (pair[0] == 7 && pair[1] == 7), "pair touched");
-    give(given, pair[0]);
-    give(given, pair[1]);
-    return status;
-}
-
-static int one_pair(struct given *given)
-{
-    int status;
-    double pair[2] = {7, 7};
-    ARMED(status, restitute_pair(7.0 / 6, 2, 1, 1, &pair[0], &pair[1], &error));
-    return give_pair(status, pair, given);
-}
-
-static int one_scene_pair(struct given *given)
-{
-    int status;
-    double pair[2] = {7, 7};
-    ARMED(status, restitute_scene_pair(&scene, &pair[0], &pair[1], &error));
-    return give_pair(status, pair, given);
-}
+#define PAIR(name, function, ...)                                                                                      \
+    static int name(struct given *given)                                                                               \
+    {                                                                                                                  \
+        int status;                                                                                                    \
+        double ez = 7, ex = 7;                                                                                         \
+        ARMED(status, function(__VA_ARGS__, &ez, &ex, &error));                                                        \
+        CHECK(status >= 0 || (ez == 7 && ex == 7), "pair touched");                                                    \
+        give(given, ez);                                                                                               \
+        give(given, ex);                                                                                               \
+        return status;                                                                                                 \
+    }
+PAIR(one_pair, restitute_pair, 7.0 / 6, 2, 1, 1)
+PAIR(one_scene_pair, restitute_scene_pair, &scene)
 
 /* A case that failed has its status, or the call was refused as a whole; the others are right. */
 static int give_cases(int status, int of_scenes, const restitute_result *results, const int *statuses,
@@ -290,6 +253,7 @@ static int set_up(void **state)
     }
     rubber = solid_of(1e6, 0, terms, tau, g);
     glue = solid_of(2e6, 0, 5, tau + 1, g);
+    impact = impact_of(7.0 / 6, 0.7, 1, 1);
     restitute_scene_init(&scene);
     scene.material = rubber;
     scene.radius1 = 0.01;

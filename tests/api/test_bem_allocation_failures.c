@@ -25,7 +25,7 @@ SEEN_BY_LIBRARIES void *fftw_alloc_complex(size_t n)
 
 static restitute_bem_recorder *recorder;
 static restitute_solver *solver;
-static restitute_material *solid;
+static restitute_impact impact;
 static restitute_error error;
 static int refines;
 
@@ -43,15 +43,12 @@ static void destroy(void)
     restitute_bem_recorder_destroy(recorder);
 }
 
+SOLVES(solve_once, restitute_solve(solver, &impact, &o.result, WANTED(ledger), WANTED(history), &error))
+
 static int solve(struct given *given)
 {
-    struct outputs o, fresh;
-    int status;
-    const restitute_impact impact = impact_on(solid, 7.0 / 6, 2);
-    prepare(&o, &fresh);
-    ARMED(status, restitute_solve(solver, &impact, &o.result, &o.ledger, &o.history, &error));
-    if (give_outputs(status, &o, &fresh, given) < 0) return status;
-    for (size_t i = 0; i < restitute_bem_recorder_count(recorder); i++) {
+    const int status = solve_once(given);
+    for (size_t i = 0; status >= 0 && i < restitute_bem_recorder_count(recorder); i++) {
         PREPARED(bem_snapshot, s);
         CHECK(restitute_bem_recorder_get(recorder, i, &s, &error) == RESTITUTE_OK, "%s", error.message);
         give(given, s.pressure[s.cells * s.cells / 2]);
@@ -68,7 +65,9 @@ static void method_bem(void **state)
     struct given warm = {0};
     (void)state;
     allocator.ours_alone = 1;
-    solid = solid_of(1, 0, 2, tau, g);
+    restitute_material *solid = solid_of(1, 0, 2, tau, g);
+    impact = impact_on(solid, 7.0 / 6, 2);
+    all_outputs = 1;
     create(); /* what FFTW keeps for good */
     CHECK(solve(&warm) >= 0, "%s", error.message);
     destroy();

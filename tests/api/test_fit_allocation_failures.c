@@ -35,20 +35,14 @@ static int fit_with(size_t n, int model, int loss, struct given *given)
     return status;
 }
 
-static int elastic(struct given *given)
-{
-    return fit_with(N, RESTITUTE_FIT_MODEL_ELASTIC, RESTITUTE_FIT_LOSS_SQUARES, given);
-}
-
-static int damped(struct given *given)
-{
-    return fit_with(N, RESTITUTE_FIT_MODEL_KELVIN_VOIGT, RESTITUTE_FIT_LOSS_HUBER, given);
-}
-
-static int plain(struct given *given)
-{
-    return fit_with(2, RESTITUTE_FIT_MODEL_KELVIN_VOIGT, RESTITUTE_FIT_LOSS_SQUARES, given);
-}
+#define FIT(name, n, model, loss)                                                                                      \
+    static int name(struct given *given)                                                                               \
+    {                                                                                                                  \
+        return fit_with(n, RESTITUTE_FIT_MODEL_##model, RESTITUTE_FIT_LOSS_##loss, given);                             \
+    }
+FIT(elastic, N, ELASTIC, SQUARES)
+FIT(damped, N, KELVIN_VOIGT, HUBER)
+FIT(plain, 2, KELVIN_VOIGT, SQUARES)
 
 static int curve(struct given *given)
 {

@@ -26,6 +26,20 @@ static inline void prepare(struct outputs *o, struct outputs *fresh)
     memcpy(fresh, o, sizeof *o);
 }
 
+/* Of a subject, the function `name`, whose call solves and puts its outputs into `o`: the result,
+ * and what is WANTED. */
+#define SOLVES(name, call)                                                                                             \
+    static int name(struct given *given)                                                                               \
+    {                                                                                                                  \
+        struct outputs o, fresh;                                                                                       \
+        int status;                                                                                                    \
+        prepare(&o, &fresh);                                                                                           \
+        ARMED(status, call);                                                                                           \
+        return give_outputs(status, &o, &fresh, given);                                                                \
+    }
+static int all_outputs; /* or not those that are WANTED */
+#define WANTED(output) (all_outputs ? &o.output : NULL)
+
 static inline int give_outputs(int status, const struct outputs *o, const struct outputs *fresh, struct given *given)
 {
     CHECK(status >= 0 || memcmp(o, fresh, sizeof *o) == 0, "outputs touched");
