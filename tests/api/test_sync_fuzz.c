@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../support/history.h"
 #include "../support/random.h"
 #include "../support/sync.h"
 
@@ -58,11 +59,9 @@ static restitute_impact random_impact(uint64_t *random)
 static restitute_solver *random_solver(uint64_t *random)
 {
     restitute_options options = sync_to(random_log(random, one_in(random, 4) ? 1e-8 : 1e-5, 0.1));
-    restitute_solver *solver;
     options.max_work = one_in(random, 4) ? 1e-4 : 3e-2;
     if (one_in(random, 4)) options.elements = 4 + random_below(random, 200);
-    CHECK(restitute_solver_create(&options, &solver, NULL) == RESTITUTE_OK, "solver");
-    return solver;
+    return make_solver(&options);
 }
 
 static void check_history(long i, const restitute_history *h, const restitute_result *r)
@@ -101,20 +100,13 @@ static void check_ledger(long i, const restitute_ledger *l)
 static int solve_twice(long i, restitute_solver *solver, const restitute_impact *impact, size_t samples)
 {
     static double array[8][capacity];
-    restitute_result pair, result;
-    restitute_ledger ledger;
-    restitute_history history;
+    PREPARED(result, pair);
+    PREPARED(result, result);
+    PREPARED(ledger, ledger);
+    PREPARED(history, history);
     restitute_error error;
-    restitute_result_init(&pair);
-    restitute_result_init(&result);
-    restitute_ledger_init(&ledger);
-    restitute_history_init(&history);
+    set_columns(&history, capacity, array[0], all_columns);
     history.capacity = samples;
-    double **wanted[] = {
-        &history.time,         &history.indentation,      &history.contact_radius,  &history.stick_radius,
-        &history.normal_force, &history.tangential_force, &history.normal_velocity, &history.tangential_velocity};
-    for (int k = 0; k < 8; k++)
-        *wanted[k] = array[k];
     const int status = restitute_solve(solver, impact, &pair, NULL, NULL, &error);
     const int again = restitute_solve(solver, impact, &result, &ledger, &history, &error);
     CHECK(again == status, "impact %ld: status %d, with history and ledger %d: %s", i, status, again, error.message);

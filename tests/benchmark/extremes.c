@@ -11,15 +11,10 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #define _POSIX_C_SOURCE 200809L
 #define PLAIN_CHECKS
-#ifdef RESTITUTE_WITH_CVODE
-#include <restitute/cvode.h>
-#endif
-
-#include <time.h>
-
+#include "extremes.h"
 #include "../support/result.h"
 #include "../support/solve.h"
-#include "extremes.h"
+#include "bench.h"
 
 enum { most_terms = 30, block = 64, CHI = 4, PSI = 7, DELTA1 = 4, GAMMA = 5, TOLERANCES = 4 };
 static const double chi_end[CHI] = {1.0 / 3, 0.5, 7.0 / 6, 1000}, delta1_end[DELTA1] = {0, 1e-12, 1, 1e12};
@@ -154,9 +149,9 @@ static void solve_case(struct campaign *c, struct solved_case *d)
     r->ez = r->work = 42;
     alarm(60); /* hangs */
     feclearexcept(FE_ALL_EXCEPT);
-    const clock_t start = clock();
+    const double start = bench_time();
     d->status = restitute_solve(c->solver[k], &d->impact, r, with_ledger ? &ledger : NULL, NULL, &error);
-    const double taken = (double)(clock() - start) / CLOCKS_PER_SEC;
+    const double taken = bench_time() - start;
     expect_no_exception("restitute_solve");
     alarm(0);
     c->status[d->status < 0 || d->status > 2 ? 3 : d->status]++;
@@ -240,31 +235,27 @@ static void report(const struct campaign *c)
 int main(int argc, char **argv)
 {
     static struct campaign c;
-    const restitute_method *sync = restitute_method_sync(), *euler = restitute_method_euler(), *cvode = NULL;
-#ifdef RESTITUTE_WITH_CVODE
-    cvode = restitute_method_cvode();
-#endif
-    const restitute_method *method = NULL, *known[] = {sync, euler, cvode};
-    for (int k = 0; k < 3 && argc > 3; k++)
-        if (known[k] && strcmp(argv[1], restitute_method_name(known[k])) == 0) method = known[k];
-    if (method == sync) tolerances = fine_tolerances;
-    if (!method || argc > 7) {
+    const struct bench_method *method = argc > 3 && argc < 8 ? bench_method(argv[1]) : NULL;
+    if (!method || !method->handle) {
         fprintf(stderr, "usage: extremes sync|euler|cvode COUNT SEED [FIRST [MAX_WORK [TIME_LIMIT]]]\n");
         return 2;
     }
+    const int is_sync = method->handle == restitute_method_sync;
+    const struct bench_method *other = bench_method(is_sync ? "cvode" : "sync"); /* NULL without the component cvode */
+    if (is_sync) tolerances = fine_tolerances;
     restitute_options_init(&c.options);
-    c.options.method = method;
+    c.options.method = method->handle();
     c.options.max_work = argc > 5 ? strtod(argv[5], NULL) : 0.01;
     c.options.time_limit = argc > 6 ? strtod(argv[6], NULL) : INFINITY;
     c.seed = strtoull(argv[3], NULL, 10);
-    c.every = method == sync ? 64 : 4; /* sync is the fast one */
+    c.every = is_sync ? 64 : 4; /* sync is the fast one */
     restitute_options second = c.options;
-    second.method = method == sync ? cvode : sync;
+    if (other) second.method = other->handle();
     second.max_work = 0.1, second.time_limit = INFINITY;
     for (int k = 0; k < TOLERANCES; k++) {
         c.options.tolerance = tolerances[k], second.tolerance = tolerances[k] / 10;
         c.solver[k] = make_solver(&c.options);
-        if (second.method) c.second[k] = make_solver(&second);
+        if (other) c.second[k] = make_solver(&second);
     }
     watch_signals();
     run(&c, argc > 4 ? strtol(argv[4], NULL, 10) : 0, strtol(argv[2], NULL, 10));
