@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../support/sized.h"
+#include "../support/sync.h"
 #include "../support/table.h"
 
 static restitute_material *material;
@@ -146,34 +147,30 @@ static void many_at_once(void **state)
     assert_int_equal(restitute_table_pair_many(table, NULL, 0, NULL, NULL, NULL, NULL, NULL), RESTITUTE_OK);
 }
 
-/* Smaller spheres, two spheres, both of the material: the pair of the other contact, within the
- * table's tolerance. */
+/* The pair of another contact, at a speed that is 0.3 m/s to the table, is that of the impact by
+ * itself: 1e-4 is the table's tolerance, the rest the impact's own. */
+static void check_contact(const restitute_table *of, restitute_scene other, const char *what)
+{
+    restitute_error error;
+    PREPARED(table_contact, contact);
+    CHECK(restitute_table_contact_set(of, &other, &contact, &error) == RESTITUTE_OK, "%s", error.message);
+    other.normal_speed = 0.3 / contact.speed_factor, other.tangential_speed = 0.2 / contact.speed_factor;
+    const restitute_result result = solve_scene(sync_to(1e-5), &other).result;
+    const struct pair pair = look_up_for(of, &contact, other.normal_speed, other.tangential_speed);
+    CHECK_NEAR(pair.ez, result.ez, 1.1e-4, "%s", what);
+    CHECK_NEAR(pair.ex, result.ex, 1.1e-4, "%s", what);
+}
+
 static void other_sizes(void **state)
 {
-    restitute_options options = to_tolerance(1e-5);
-    restitute_solver *solver;
-    restitute_error error;
     (void)state;
-    options.method = restitute_method_sync();
-    assert_int_equal(restitute_solver_create(&options, &solver, &error), RESTITUTE_OK);
-    for (int kind = 0; kind < 3; kind++) {
-        restitute_scene other = scene;
-        restitute_table_contact contact;
-        restitute_result result;
-        restitute_result_init(&result);
-        restitute_table_contact_init(&contact);
-        if (kind != 1) other.radius1 = 0.004, other.mass1 = 0.0025;
-        if (kind == 1) other.radius2 = 0.003, other.mass2 = 0.002;
-        if (kind == 2) other.deformable = RESTITUTE_BOTH_BODIES_DEFORM, other.friction = 0.6;
-        CHECK(restitute_table_contact_set(table, &other, &contact, &error) == RESTITUTE_OK, "%s", error.message);
-        other.normal_speed = 0.2;
-        other.tangential_speed = 0.15;
-        CHECK(restitute_solve_scene(solver, &other, &result, NULL, NULL, &error) >= 0, "%s", error.message);
-        const struct pair pair = look_up_for(table, &contact, 0.2, 0.15);
-        CHECK_NEAR(pair.ez, result.ez, 1.1e-4, "contact %d", kind); /* 1e-4: the table's; the rest the impact's own */
-        CHECK_NEAR(pair.ex, result.ex, 1.1e-4, "contact %d", kind);
-    }
-    restitute_solver_destroy(solver);
+    restitute_scene smaller = scene, two = scene, both = scene;
+    smaller.radius1 = both.radius1 = 0.004, smaller.mass1 = both.mass1 = 0.0025;
+    two.radius2 = 0.003, two.mass2 = 0.002;
+    both.deformable = RESTITUTE_BOTH_BODIES_DEFORM, both.friction = 0.6;
+    check_contact(table, smaller, "a smaller sphere");
+    check_contact(table, two, "two spheres");
+    check_contact(table, both, "both of the material, rougher");
 }
 
 /* A Kelvin-Voigt solid and one that flows, softer than 1 Pa, by tables of stiffer and faster ones:
@@ -183,11 +180,6 @@ static void other_materials_of_one_shape(void **state)
     (void)state;
     for (int flows = 0; flows < 2; flows++) {
         restitute_material *of_table, *other;
-        restitute_options options = to_tolerance(1e-5);
-        restitute_solver *solver;
-        restitute_table_contact contact;
-        restitute_result result;
-        restitute_error error;
         const double tau[] = {1e-3, 2e-2}, slow[] = {0.3, 6}, g[] = {2e5, 1e5}, soft[] = {0.2, 0.1};
         restitute_scene impact = scene;
         of_table = flows ? solid_of(0, 0, 2, tau, g) : solid_of(1e6, 300, 0, NULL, NULL);
@@ -195,17 +187,7 @@ static void other_materials_of_one_shape(void **state)
         impact.material = of_table;
         restitute_table *one = table_of(&impact, 0.01, 10, 1e-4);
         impact.material = other;
-        restitute_result_init(&result);
-        restitute_table_contact_init(&contact);
-        CHECK(restitute_table_contact_set(one, &impact, &contact, &error) == RESTITUTE_OK, "%s", error.message);
-        impact.normal_speed = 0.3 / contact.speed_factor, impact.tangential_speed = 0.2 / contact.speed_factor;
-        options.method = restitute_method_sync();
-        assert_int_equal(restitute_solver_create(&options, &solver, &error), RESTITUTE_OK);
-        CHECK(restitute_solve_scene(solver, &impact, &result, NULL, NULL, &error) >= 0, "%s", error.message);
-        const struct pair pair = look_up_for(one, &contact, impact.normal_speed, impact.tangential_speed);
-        CHECK_NEAR(pair.ez, result.ez, 1.1e-4, "flows %d", flows);
-        CHECK_NEAR(pair.ex, result.ex, 1.1e-4, "flows %d", flows);
-        restitute_solver_destroy(solver);
+        check_contact(one, impact, flows ? "flows" : "Kelvin-Voigt");
         restitute_table_destroy(one);
         restitute_material_destroy(of_table);
         restitute_material_destroy(other);
@@ -214,12 +196,11 @@ static void other_materials_of_one_shape(void **state)
 
 static void other_contacts_are_refused(void **state)
 {
-    restitute_table_contact contact;
+    PREPARED(table_contact, contact);
     restitute_error error;
     restitute_scene other = scene;
     restitute_material *soft;
     (void)state;
-    restitute_table_contact_init(&contact);
     contact.speed_factor = 5;
     other.inertia1 = 1e-8;
     assert_int_equal(restitute_table_contact_set(table, &other, &contact, &error), RESTITUTE_ERROR_DOMAIN);
@@ -233,44 +214,26 @@ static void other_contacts_are_refused(void **state)
     restitute_material_destroy(soft);
 }
 
-/* The material at another temperature: the impact itself is off by its tolerance, the table by its
- * own. */
+/* The material at another temperature. */
 static void shifted_times(void **state)
 {
-    restitute_options options = to_tolerance(1e-5);
-    restitute_solver *solver;
-    restitute_error error;
-    restitute_material *warm;
     restitute_scene other = scene;
-    restitute_table_contact contact;
-    restitute_result result;
     double g_inf, eta, tau, g;
     (void)state;
-    options.method = restitute_method_sync();
-    assert_int_equal(restitute_solver_create(&options, &solver, &error), RESTITUTE_OK);
     restitute_material_series(material, &g_inf, &eta, &tau, &g, NULL);
     tau *= 1.7, g_inf *= 0.8, g *= 0.8;
-    assert_int_equal(restitute_material_prony(g_inf, eta, 1, &tau, &g, 0.5, &warm, &error), RESTITUTE_OK);
+    restitute_material *warm = solid_of(g_inf, eta, 1, &tau, &g);
     other.material = warm, other.radius1 = 0.004;
-    restitute_table_contact_init(&contact);
-    CHECK(restitute_table_contact_set(table, &other, &contact, &error) == RESTITUTE_OK, "%s", error.message);
-    other.normal_speed = 0.2, other.tangential_speed = 0.15;
-    restitute_result_init(&result);
-    CHECK(restitute_solve_scene(solver, &other, &result, NULL, NULL, &error) >= 0, "%s", error.message);
-    const struct pair pair = look_up_for(table, &contact, 0.2, 0.15);
-    CHECK_NEAR(pair.ez, result.ez, 1.1e-4, "another temperature");
-    CHECK_NEAR(pair.ex, result.ex, 1.1e-4, "another temperature");
+    check_contact(table, other, "another temperature");
     restitute_material_destroy(warm);
-    restitute_solver_destroy(solver);
 }
 
 /* Factors that a caller has put there. */
 static void factors_out_of_range(void **state)
 {
-    restitute_table_contact contact;
+    PREPARED(table_contact, contact);
     restitute_error error;
     (void)state;
-    restitute_table_contact_init(&contact);
     CHECK(restitute_table_pair(table, &contact, 1, 1, NULL, NULL, &error) == RESTITUTE_ERROR_DOMAIN, "not set");
     CHECK(strstr(error.message, "not set: restitute_table_contact_set"), "%s", error.message);
     assert_int_equal(restitute_table_contact_set(table, &scene, &contact, &error), RESTITUTE_OK);
@@ -360,9 +323,8 @@ static void axes_collapse(void **state)
 {
     restitute_material *steel;
     restitute_scene ball = scene;
-    restitute_table_info info;
+    PREPARED(table_info, info);
     (void)state;
-    restitute_table_info_init(&info);
     restitute_material_elastic(8e10, 0.3, &steel, NULL);
     ball.material = steel;
     restitute_table *elastic = table_of(&ball, 1e-3, 10, 1e-4);
@@ -378,9 +340,8 @@ static void axes_collapse(void **state)
     CHECK(info.checks < info.impacts, "%lld checks of %lld impacts", (long long)info.checks, (long long)info.impacts);
     CHECK(look_up(smooth, 1, 0).ex == -1 && look_up(smooth, 1, 5).ex == -1 && look_up(smooth, 0, 0).ex == -1, "mu = 0");
     CHECK_NEAR(look_up(smooth, 1, 0).ez, look_up(table, 1, 0).ez, 2e-4, "ez does not know of friction");
-    restitute_table_contact contact;
+    PREPARED(table_contact, contact);
     restitute_error error;
-    restitute_table_contact_init(&contact);
     assert_int_equal(restitute_table_contact_set(smooth, &scene, &contact, &error), RESTITUTE_ERROR_DOMAIN);
     CHECK(strstr(error.message, "must be 0, the only one of this table"), "%s", error.message);
     restitute_table_destroy(smooth);

@@ -1,6 +1,7 @@
 /* The error that a table promises, at random places, against impacts solved by themselves. With
  * more places and solids: the target table-campaign (benchmark/table_campaign.py).
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "../support/sync.h"
 #include "../support/table.h"
 
 /* Sanitizers make an impact some ten times as dear, and look at the code, not at the numbers. */
@@ -20,16 +21,14 @@ static struct extremes compare(const restitute_table *table, const restitute_tab
 {
     const double tolerance = info->tolerance, nu = restitute_material_poisson_ratio(scene.material);
     const double psi_factor = 2 * (1 - nu) / (2 - nu) / scene.friction;
-    restitute_options options = to_tolerance(tolerance / 4); /* the impact may be off by a part of what the table may */
-    restitute_solver *solver;
+    const restitute_options options =
+        sync_to(tolerance / 4); /* the impact may be off by a part of what the table may */
+    restitute_solver *solver = make_solver(&options);
     restitute_error error;
     struct extremes worst = {0, 0};
     uint64_t state = 6;
-    options.method = restitute_method_sync();
-    CHECK(restitute_solver_create(&options, &solver, &error) == RESTITUTE_OK, "%s", error.message);
     for (int i = 0; i < places; i++) {
-        restitute_result result;
-        restitute_result_init(&result);
+        PREPARED(result, result);
         scene.normal_speed = random_log(&state, info->speed[0], info->speed[1]);
         const double psi = random_in(&state, 0, random_below(&state, 5) < 2 ? 1 : most_psi);
         scene.tangential_speed = psi * scene.normal_speed / psi_factor;
@@ -37,8 +36,8 @@ static struct extremes compare(const restitute_table *table, const restitute_tab
         const struct pair pair = look_up(table, scene.normal_speed, scene.tangential_speed);
         const double ez = fabs(pair.ez - result.ez), ex = fabs(pair.ex - result.ex);
         CHECK(ez <= info->error_ez + result.error_ez && ex <= info->error_ex + result.error_ex,
-              "v_n = %g, psi = %g: off by %g and %g, stated %g and %g",
-              scene.normal_speed, psi, ez, ex, info->error_ez, info->error_ex);
+              "v_n = %g, psi = %g: off by %g and %g, stated %g and %g", scene.normal_speed, psi, ez, ex, info->error_ez,
+              info->error_ex);
         worst.ez = fmax(worst.ez, ez);
         worst.ex = fmax(worst.ex, ex);
     }
@@ -49,11 +48,9 @@ static struct extremes compare(const restitute_table *table, const restitute_tab
 static void check_table(double gamma, double tolerance)
 {
     restitute_material *material;
-    restitute_table_info info;
     const restitute_scene scene = ball_on(gamma, &material);
     restitute_table *table = table_of(&scene, 1e-4, 100, tolerance);
-    restitute_table_info_init(&info);
-    assert_int_equal(restitute_table_describe(table, &info, NULL), RESTITUTE_OK);
+    const restitute_table_info info = describe(table);
     CHECK(info.error_ez <= tolerance && info.error_ex <= tolerance && info.checks > 50, "%g, %g at %lld checks",
           info.error_ez, info.error_ex, (long long)info.checks);
     const struct extremes worst = compare(table, &info, scene, 4);
@@ -89,17 +86,15 @@ static void narrow_folds(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof folds / sizeof *folds; i++) {
         restitute_material *material;
-        restitute_scene scene;
-        restitute_table_options options;
+        PREPARED(scene, scene);
+        PREPARED(table_options, options);
         restitute_table *table;
         restitute_error error;
-        restitute_scene_init(&scene);
         CHECK(restitute_material_standard_solid(1e6, folds[i].g, folds[i].viscosity, folds[i].nu, &material, &error) ==
                   RESTITUTE_OK,
               "%s", error.message);
         scene.material = material;
         scene.radius1 = 0.005, scene.mass1 = 0.004, scene.inertia1 = folds[i].inertia, scene.friction = 0.3;
-        restitute_table_options_init(&options);
         options.speed[0] = folds[i].speed[0], options.speed[1] = folds[i].speed[1];
         options.tolerance = folds[i].tolerance;
         const int status = restitute_table_build(&scene, &options, &table, &error);
