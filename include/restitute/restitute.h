@@ -479,8 +479,9 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, result)
  *  (1/2) m v_z0^2 in z, and of the energy of the contact point's tangential motion in x. Each
  *  account adds up to 1 - residual. Where slip is as short as the relaxation of terms that
  *  are merged for the pair, the ledger is that of a second run with fewer terms merged, so that
- *  merging moves less than 0.01 between friction, viscous and left. With psi below an eighth of
- *  the tolerance slip is left out: then left has what friction takes. */
+ *  merging moves less than 0.01 between friction, viscous and left (up to 0.4 if that run would
+ *  pass max_work or time_limit). With psi below an eighth of the tolerance slip is left out: then
+ *  left has what friction takes. */
 typedef struct restitute_ledger {
     size_t struct_size;                  /**< set by @ref restitute_ledger_init */
     double rebound_z, viscous_z, left_z; /**< kinetic after; dissipated in contact; left in the

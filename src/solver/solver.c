@@ -262,7 +262,8 @@ static int solve_merged(restitute_solver *solver, struct input *input, int keep_
 }
 
 /* The ledger. Merged terms that do not matter for the pair may where slip is as short as their
- * relaxation (docs/theory.md, section 8): then the ledger is that of another run. */
+ * relaxation (docs/theory.md, section 7): then the ledger is that of another run, if it succeeds
+ * within the limits of work and time. */
 static int write_ledger(restitute_solver *solver, struct input *input, const struct rst_problem *problem,
                         const struct rst_outcome *outcome, const struct merged *merged, restitute_ledger *ledger,
                         restitute_error *error)
@@ -273,14 +274,11 @@ static int write_ledger(restitute_solver *solver, struct input *input, const str
     struct merged fewer;
     restitute_error why;
     restitute_ledger_init(ledger);
-    if (problem->mode != RST_PARTIAL_SLIP || merged->fast_bound <= allowed) {
-        rst_write_ledger(problem, outcome, ledger);
-        return RESTITUTE_OK;
-    }
+    rst_write_ledger(problem, outcome, ledger);
+    if (problem->mode != RST_PARTIAL_SLIP || merged->fast_bound <= allowed) return RESTITUTE_OK;
     const int status = solve_merged(solver, input, 1, allowed, &other, &followed, &fewer, &why);
-    if (status < 0) return rst_report(error, status, "ledger: %s", why.message);
-    rst_write_ledger(&other, &followed, ledger);
-    return RESTITUTE_OK;
+    if (status >= 0) rst_write_ledger(&other, &followed, ledger);
+    return status == RESTITUTE_ERROR_MEMORY ? rst_report(error, status, "%s", why.message) : RESTITUTE_OK;
 }
 
 static int record(restitute_solver *solver, const struct rst_problem *problem, const struct rst_outcome *outcome,
