@@ -18,9 +18,9 @@ contains
   !> 1 = D^(5/2) (G_inf + sum g_k/(1 + 0.8 D/tau_k) + (5/4) eta/D), which is exact in the elastic
   !> and the viscous limit. The iteration starts from a scale of the solid, so that scaled moduli
   !> give the same steps.
-  pure function likely_depth(g_inf, eta, n_terms, g, tau) result(depth)
-    real(dp), intent(in) :: g_inf, eta
-    integer(ip), intent(in) :: n_terms
+  pure function likely_depth(g_inf, eta, n_terms, g, tau) result(depth) bind(c, name="rst_likely_depth")
+    real(dp), intent(in), value :: g_inf, eta
+    integer(ip), intent(in), value :: n_terms
     real(dp), intent(in) :: g(n_terms), tau(n_terms)
     real(dp) :: depth, modulus, factor
     integer(ip) :: i, k
@@ -46,9 +46,10 @@ contains
   !> `stress` is workspace for n_terms values. `sinks` is 1 when the kinetic energy plus the energy
   !> in the foundation is below rest_speed**2: such a sphere rebounds more slowly than rest_speed,
   !> if at all (docs/theory.md, section 6).
-  pure subroutine scout_compression(g_inf, eta, n_terms, g, tau, can_sink, rest_speed, stress, depth, time, force, sinks)
-    real(dp), intent(in) :: g_inf, eta, rest_speed
-    integer(ip), intent(in) :: n_terms, can_sink
+  pure subroutine scout_compression(g_inf, eta, n_terms, g, tau, can_sink, rest_speed, stress, depth, time, force, sinks) &
+    bind(c, name="rst_scout_compression")
+    real(dp), intent(in), value :: g_inf, eta, rest_speed
+    integer(ip), intent(in), value :: n_terms, can_sink
     real(dp), intent(in) :: g(n_terms), tau(n_terms)
     real(dp), intent(out) :: stress(n_terms), depth, time
     real(dp), intent(out) :: force  !! the largest, int f dX
@@ -109,9 +110,9 @@ contains
   !> Upper bound of the energy in the springs, in units of the impact energy. With y_k at the centre
   !> at most twice its mean P/A over the contact, (15/8) sum 2 P^2/(g A) covers the parabolic
   !> profile (exact factor 6/5).
-  pure function recoverable_energy(depth, g_inf, n_terms, g, stress) result(energy)
-    real(dp), intent(in) :: depth, g_inf
-    integer(ip), intent(in) :: n_terms
+  pure function recoverable_energy(depth, g_inf, n_terms, g, stress) result(energy) bind(c, name="rst_recoverable_energy")
+    real(dp), intent(in), value :: depth, g_inf
+    integer(ip), intent(in), value :: n_terms
     real(dp), intent(in) :: g(n_terms), stress(n_terms)
     real(dp) :: energy
     integer(ip) :: k

@@ -23,9 +23,10 @@ contains
   !> Merge in place, cheapest first, what costs at most `allowed` all together. Terms come in
   !> ascending order of tau; those kept move to the front, n_terms is their number. slow_rate: bound
   !> from slow terms per unit of contact time, so that it can be stated for the contact time found.
-  pure subroutine merge_terms(share, window, depth, allowed, g_inf, eta, n_terms, g, tau, slow_rate, fast_bound)
-    real(dp), intent(in) :: share  !! the larger of what a force changes in z and x: 1, or chi with friction, if larger
-    real(dp), intent(in) :: window, depth, allowed
+  pure subroutine merge_terms(share, window, depth, allowed, g_inf, eta, n_terms, g, tau, slow_rate, fast_bound) &
+    bind(c, name="rst_merge_terms")
+    real(dp), intent(in), value :: share  !! the larger of what a force changes in z and x: 1, or chi with friction, if larger
+    real(dp), intent(in), value :: window, depth, allowed
     real(dp), intent(inout) :: g_inf, eta
     integer(ip), intent(inout) :: n_terms
     real(dp), intent(inout) :: g(n_terms), tau(n_terms)

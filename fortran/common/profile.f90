@@ -8,8 +8,8 @@ module rst_profile
 contains
 
   !> g(x) = |x| int_0^|x| f'(r)/sqrt(x^2 - r^2) dr (6) for the parabola f = r^2/(2R): g = x^2/R (8).
-  pure function plane_profile(x, radius) result(height)
-    real(dp), intent(in) :: x, radius
+  pure function plane_profile(x, radius) result(height) bind(c, name="rst_plane_profile")
+    real(dp), intent(in), value :: x, radius
     real(dp) :: height
     height = x*x/radius
   end function plane_profile

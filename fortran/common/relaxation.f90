@@ -13,9 +13,9 @@ module rst_relaxation
 contains
 
   !> G(t) for t > 0 (the delta has passed).
-  pure function relaxation_modulus(t, g_inf, n_terms, g, tau) result(modulus)
-    real(dp), intent(in) :: t, g_inf
-    integer(ip), intent(in) :: n_terms
+  pure function relaxation_modulus(t, g_inf, n_terms, g, tau) result(modulus) bind(c, name="rst_relaxation_modulus")
+    real(dp), intent(in), value :: t, g_inf
+    integer(ip), intent(in), value :: n_terms
     real(dp), intent(in) :: g(n_terms), tau(n_terms)
     real(dp) :: modulus
     real(dp), parameter :: nothing_left = 1000  !! exp(-1000) = 0
@@ -27,9 +27,9 @@ contains
   end function relaxation_modulus
 
   !> Backward Euler of y' = g u' - y/tau over a step h, which is (12): y <- decay y + gain du.
-  pure subroutine step_coefficients(h, n_terms, g, tau, decay, gain)
-    real(dp), intent(in) :: h
-    integer(ip), intent(in) :: n_terms
+  pure subroutine step_coefficients(h, n_terms, g, tau, decay, gain) bind(c, name="rst_step_coefficients")
+    real(dp), intent(in), value :: h
+    integer(ip), intent(in), value :: n_terms
     real(dp), intent(in) :: g(n_terms), tau(n_terms)
     real(dp), intent(out) :: decay(n_terms), gain(n_terms)
     integer(ip) :: k
@@ -60,9 +60,9 @@ contains
   !> [g_inf + sum b (z-1)/(z-a)] passes z = -1 at h^2 K step_stiffness(h) = 4 (elastic: h omega = 2;
   !> Kelvin-Voigt: h K eta = 2, docs/theory.md, section 4). The left side grows with h: bisection in
   !> log h.
-  pure function largest_stable_step(coupling, g_inf, eta, n_terms, g, tau) result(h)
-    real(dp), intent(in) :: coupling, g_inf, eta  !! coupling K: velocity change per unit of time and stiffness
-    integer(ip), intent(in) :: n_terms
+  pure function largest_stable_step(coupling, g_inf, eta, n_terms, g, tau) result(h) bind(c, name="rst_largest_stable_step")
+    real(dp), intent(in), value :: coupling, g_inf, eta  !! coupling K: velocity change per unit of time and stiffness
+    integer(ip), intent(in), value :: n_terms
     real(dp), intent(in) :: g(n_terms), tau(n_terms)
     real(dp) :: h
     real(dp) :: low, high

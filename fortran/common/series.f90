@@ -25,7 +25,8 @@ contains
   !> Chains a and b in series: `pair` has at most a%n + b%n + 1 terms, tau ascending. `times`,
   !> `from_a` and `from_b` are workspace: the times of both chains, descending, and the term of each
   !> chain that has that time, 0 for none.
-  pure subroutine series_chain(a, m_a, tau_a, b, m_b, tau_b, times, from_a, from_b, pair, m, tau)
+  pure subroutine series_chain(a, m_a, tau_a, b, m_b, tau_b, times, from_a, from_b, pair, m, tau) &
+    bind(c, name="rst_series_chain")
     type(chain_type), intent(in) :: a, b
     real(dp), intent(in) :: m_a(a%n), tau_a(a%n), m_b(b%n), tau_b(b%n)
     real(dp), intent(out) :: times(a%n + b%n)

@@ -1,5 +1,5 @@
-/* The Fortran procedures that all methods share, and the twins of their derived types; see
- * fortran/common/interface.f90.
+/* The Fortran procedures that all methods share, and the twins of their derived types; see the
+ * folder fortran/common.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef RST_KERNELS_H
 #define RST_KERNELS_H
