@@ -24,12 +24,6 @@ size_t rst_run_position_of_shear(const struct cvode_scene *scene)
     return 2 + 2 * (size_t)scene->n_terms;
 }
 
-double rst_run_velocity(const struct run *run, const double *y)
-{
-    (void)run;
-    return y[1];
-}
-
 /* In gross slip U' follows from D' (27); without friction U' is constant. */
 double rst_run_shear_velocity(const struct run *run, const double *y)
 {

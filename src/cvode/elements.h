@@ -11,8 +11,7 @@ enum { ROOT_PHASE, ROOT_SLIP_END, ROOT_ENTRY, ROOT_EXIT, ROOTS };
 /* Where the tangential states begin in y. */
 size_t rst_run_position_of_shear(const struct cvode_scene *scene);
 
-/* Velocities of the sphere now. */
-double rst_run_velocity(const struct run *run, const double *y);
+/* Tangential velocity of the sphere now. */
 double rst_run_shear_velocity(const struct run *run, const double *y);
 
 /* Stick radius, from the margins last computed. */

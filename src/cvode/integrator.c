@@ -36,7 +36,7 @@ struct integrator {
     SUNLinearSolver linear;
     SUNNonlinearSolver nonlinear;
     int *direction, *events;
-    int64_t restarts, steps, rates, roots; /* counts up to the last restart */
+    struct integrator_counts before; /* work up to the last restart */
     char text[TEXT_SIZE];
 };
 
@@ -287,37 +287,24 @@ double rst_integrator_reached(struct integrator *g)
     return t;
 }
 
-static void count(struct integrator *g, int64_t *steps, int64_t *rates, int64_t *roots)
-{
-    long n_steps = 0, n_rates = 0, n_roots = 0;
-    CVodeGetNumSteps(g->cvode, &n_steps);
-    CVodeGetNumRhsEvals(g->cvode, &n_rates);
-    CVodeGetNumGEvals(g->cvode, &n_roots);
-    *steps = n_steps;
-    *rates = n_rates;
-    *roots = n_roots;
-}
-
 int rst_integrator_restart(struct integrator *g, double t, const double *y)
 {
-    int64_t steps, rates, roots;
-    count(g, &steps, &rates, &roots);
-    g->steps += steps;
-    g->rates += rates;
-    g->roots += roots;
-    g->restarts++;
+    g->before = rst_integrator_work(g);
+    g->before.restarts++;
     memcpy(NV_DATA_S(g->y), y, (size_t)g->system.n_states * sizeof *y);
     return CVodeReInit(g->cvode, t, g->y);
 }
 
 struct integrator_counts rst_integrator_work(struct integrator *g)
 {
-    struct integrator_counts work;
-    count(g, &work.steps, &work.rates, &work.roots);
-    work.steps += g->steps;
-    work.rates += g->rates;
-    work.roots += g->roots;
-    work.restarts = g->restarts;
+    struct integrator_counts work = g->before;
+    long steps = 0, rates = 0, roots = 0;
+    CVodeGetNumSteps(g->cvode, &steps);
+    CVodeGetNumRhsEvals(g->cvode, &rates);
+    CVodeGetNumGEvals(g->cvode, &roots);
+    work.steps += steps;
+    work.rates += rates;
+    work.roots += roots;
     return work;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/gross_slip.h"
 #include "base/report.h"
+#include "cvode/elements.h"
 #include "cvode/solve.h"
 
 /* Largest and smallest number of elements of a ledger. It is a check, and needs no more even if the
@@ -94,7 +95,7 @@ static void post(struct run *run, double from, double to)
     const struct elements *e = &run->elements;
     const struct recovery *r = &run->recovery;
     const double shift = run->shears ? run->y[2 + 2 * s->n_terms] : 0;
-    rst_run_evaluate(run);
+    rst_run_rates(run, run->time, run->y, run->scratch);
     const int64_t inside = count_inside(run), n = run->scene.restitution ? keeper->inside : inside;
     rst_cvode_element_energies(&run->scene, s->g, s->tau, e->x, e->entry, e->past, e->motion, e->shift, e->c, e->b,
                                r->rate, r->u, r->v, e->amplitude, run->shears,

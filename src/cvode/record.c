@@ -25,7 +25,7 @@ static void keep(struct run *run, double t, const double *y)
                             .stick_radius = rst_run_stick_radius(run),
                             .normal_force = run->contact.force,
                             .shear_force = force,
-                            .velocity = rst_run_velocity(run, y),
+                            .velocity = y[1],
                             .shear_velocity = rst_run_shear_velocity(run, y) / run->setup->problem->shear_speed};
 }
 

@@ -233,11 +233,6 @@ int rst_run_follow(struct run *run, const struct run_setup *setup, struct trace 
     return status;
 }
 
-void rst_run_evaluate(struct run *run)
-{
-    rst_run_rates(run, run->time, run->y, run->scratch);
-}
-
 int rst_run_look(struct run *run, double t, const double **y)
 {
     if (rst_integrator_look(run->integrator, t, run->look)) return 1;

@@ -15,7 +15,4 @@ void rst_run_release(struct run *run);
  * an earlier time exp(t/tau) would overflow. */
 int rst_run_look(struct run *run, double t, const double **y);
 
-/* The contact, margins and sums at the present time. */
-void rst_run_evaluate(struct run *run);
-
 #endif
