@@ -1,6 +1,6 @@
 /* Checks of motions and states, in words. Within their ranges all motions give finite forces.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "base/report.h"
+#include "base/status.h"
 #include "contact/law.h"
 
 /* Ranges of a motion, in which the arithmetic does not overflow; far wider than any real radius or
@@ -75,7 +75,7 @@ int rst_check_contact(const restitute_contact_law *law, double step, const struc
     const double normal[3] = {b->normal[0][0], b->normal[1][0], b->normal[2][0]};
     double found[3];
     const struct range *bad = first_bad(step, b, 0, found);
-    if (bad) return rst_check_number(found[0], found[1], found[2], bad->name, error);
+    if (bad) return rst_check_range(found[0], found[1], found[2], bad->name, error);
     int status = rst_check_unit(normal, "motion.normal", error);
     if (!status) status = rst_check_state(law, b->state[0], error);
     if (status || rst_is_new(b->state[0]) || in_plane(b, 0) >= least_in_plane) return status;
@@ -101,12 +101,6 @@ int rst_check_unit(const double *v, const char *name, restitute_error *error)
     if (is_unit(v[0], v[1], v[2])) return RESTITUTE_OK;
     return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = (%g, %g, %g): must be a unit vector", name, v[0], v[1],
                       v[2]);
-}
-
-int rst_check_number(double value, double low, double high, const char *name, restitute_error *error)
-{
-    if (value >= low && value <= high) return RESTITUTE_OK;
-    return rst_report(error, RESTITUTE_ERROR_DOMAIN, "%s = %.17g: must be in [%g, %g]", name, value, low, high);
 }
 
 int rst_give_force(double normal, double x, double y, double z, restitute_contact_force *force, restitute_error *error)

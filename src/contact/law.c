@@ -4,8 +4,8 @@
 
 #include <stdlib.h>
 
-#include "base/report.h"
 #include "base/sized.h"
+#include "base/status.h"
 
 RST_DEFAULTS(contact_law_options, .deformable = RESTITUTE_ONE_BODY_DEFORMS, .elements = 8, .terms = 4)
 
@@ -18,7 +18,7 @@ static int check_options(const restitute_contact_law_options *o, restitute_error
                           o->deformable);
     if (o->elements < 8 || o->elements > rst_most_nodes || o->elements % 8)
         return rst_report(error, RESTITUTE_ERROR_DOMAIN, "options.elements = %d: must be 8, 16, 24 or 32", o->elements);
-    return rst_check_number(o->terms, 1, rst_most_terms, "options.terms", error);
+    return rst_check_range(o->terms, 1, rst_most_terms, "options.terms", error);
 }
 
 /* Times, masses, radii and speeds: no product of a few of them overflows. */
@@ -162,7 +162,7 @@ int restitute_contact_rates_set(const restitute_contact_law *law, double step, r
     restitute_contact_rates made;
     if (!law || !rates) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", law ? "rates" : "law");
     int status = RST_CHECK(contact_rates, rates, error);
-    if (!status) status = rst_check_number(step, least, largest, "step (s)", error);
+    if (!status) status = rst_check_range(step, least, largest, "step (s)", error);
     if (status) return status;
     restitute_contact_rates_init(&made);
     rst_law_rates(&law->kernel, step, (struct rst_rates *)made.values);
@@ -176,9 +176,9 @@ int restitute_contact_time_scale(const restitute_contact_law *law, double mass, 
                                  double *scale, restitute_error *error)
 {
     if (!law || !scale) return rst_report(error, RESTITUTE_ERROR_NULL, "%s is NULL", law ? "scale" : "law");
-    int status = rst_check_number(mass, least, largest, "mass (kg)", error);
-    if (!status) status = rst_check_number(radius, least, largest, "radius (m)", error);
-    if (!status) status = rst_check_number(speed, least, largest, "speed (m/s)", error);
+    int status = rst_check_range(mass, least, largest, "mass (kg)", error);
+    if (!status) status = rst_check_range(radius, least, largest, "radius (m)", error);
+    if (!status) status = rst_check_range(speed, least, largest, "speed (m/s)", error);
     if (status) return status;
     *scale = rst_law_largest_overlap(&law->kernel, mass, radius, speed) / speed;
     return rst_done(error);

@@ -69,12 +69,11 @@ void rst_contact_shrink(const struct rst_law *law, double area, double *state);
 int rst_all_good(const restitute_contact_law *law, double step, const struct rst_batch *batch, int n);
 
 /* Statuses, in words: the contact of a batch of one can be advanced, or begin, or change its grid;
- * a state is one of the law; a vector is a unit vector; a number is within bounds. */
+ * a state is one of the law; a vector is a unit vector. */
 int rst_check_contact(const restitute_contact_law *law, double step, const struct rst_batch *batch,
                       restitute_error *error);
 int rst_check_state(const restitute_contact_law *law, const double *state, restitute_error *error);
 int rst_check_unit(const double *v, const char *name, restitute_error *error);
-int rst_check_number(double value, double low, double high, const char *name, restitute_error *error);
 
 /* Gives a force if it is finite: within their ranges all motions give a finite one. */
 int rst_give_force(double normal, double x, double y, double z, restitute_contact_force *force, restitute_error *error);

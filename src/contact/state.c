@@ -1,7 +1,7 @@
 /* What a state tells, and the turn of a state with a normal that jumps.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "base/report.h"
 #include "base/sized.h"
+#include "base/status.h"
 #include "contact/law.h"
 
 RST_DEFAULTS(contact_details, 0)
@@ -98,7 +98,7 @@ int restitute_contact_details_get(const restitute_contact_law *law, double radiu
 {
     int status = check(law, state, details, "details", error);
     if (!status) status = RST_CHECK(contact_details, details, error);
-    if (!status) status = rst_check_number(radius, RST_LEAST_RADIUS, RST_LARGEST_RADIUS, "radius (m)", error);
+    if (!status) status = rst_check_range(radius, RST_LEAST_RADIUS, RST_LARGEST_RADIUS, "radius (m)", error);
     if (status) return status;
     if (!law->kernel.at.details) return rst_report(error, RESTITUTE_ERROR_DOMAIN, "law: was made without details");
     const double *kept = state + rst_at_details(law->kernel.at);
