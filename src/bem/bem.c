@@ -180,15 +180,14 @@ static void fill(const struct impact *impact, const struct bem_setup *setup, dou
 {
     const struct bem_motion *q = &run->last;
     const struct bem_work *w = &run->work;
-    const struct bem_solid *solid = &impact->solid;
-    const int elastic = solid->n_terms == 0 && !(solid->flow > 0), sunk = run->end == BEM_SUNK;
+    const int elastic = rst_bem_is_elastic(&impact->solid), sunk = run->end == BEM_SUNK;
     *outcome =
         (struct rst_outcome){.velocity = sunk ? 0 : q->velocity,
                              .shear_velocity = sunk && impact->problem->mode == RST_NO_SLIP ? 0 : q->shear_velocity,
                              .contact_time = sunk ? INFINITY : run->contact_time,
                              .followed_time = q->time,
                              .max_indentation = run->max_depth,
-                             .max_contact_radius = sqrt(run->max_area / 3.14159265358979323846),
+                             .max_contact_radius = rst_bem_radius_of(run->max_area),
                              .max_normal_force = run->max_force / 8,
                              .spacing = setup->spacing,
                              .step = setup->step,
@@ -365,18 +364,13 @@ struct sampler {
     int failed;
 };
 
-static double radius_of(double area)
-{
-    return sqrt(area / 3.14159265358979323846);
-}
-
 static void add_sample(struct sampler *sampler, double shear_speed, const struct bem_motion *q)
 {
     sampler->history->samples[sampler->history->count++] =
         (struct rst_sample){.time = q->time,
                             .indentation = q->depth,
-                            .contact_radius = radius_of(q->contact),
-                            .stick_radius = radius_of(q->stick),
+                            .contact_radius = rst_bem_radius_of(q->contact),
+                            .stick_radius = rst_bem_radius_of(q->stick),
                             .normal_force = q->force / 8,
                             .shear_force = q->shear_force / 8,
                             .velocity = q->velocity,

@@ -57,7 +57,7 @@ int rst_bem_find_box(const struct rst_problem *problem, struct bem_solid *solid,
         rst_bem_solid_step(step, 0, solid);
         rst_bem_run(&setup, memory, NULL, &run);
         if (run.end == BEM_NO_MEMORY) return run.end;
-        box->radius = sqrt(run.max_area / 3.14159265358979323846);
+        box->radius = rst_bem_radius_of(run.max_area);
         if (run.end == BEM_UNSETTLED) {
             step /= 4; /* unstable */
         } else if (run.end == BEM_OUTGREW) {

@@ -37,11 +37,6 @@ static void swap_in(double **before, double **now, double **new)
     *new = oldest;
 }
 
-static int is_elastic(const struct bem_solid *solid)
-{
-    return solid->n_terms == 0 && !(solid->flow > 0);
-}
-
 /* Sizes with fast transforms; not too many of them. */
 static int64_t size_for(double cells, int64_t most)
 {
@@ -53,11 +48,6 @@ static int64_t size_for(double cells, int64_t most)
     for (int i = 0; i < count; i++)
         if (doubling * sizes[i] >= cells) return doubling * sizes[i] < most ? doubling * sizes[i] : most;
     return most;
-}
-
-static double radius_of(double area)
-{
-    return sqrt(area / 3.14159265358979323846);
 }
 
 /* Gap and s of an elastic solid on a larger part of the grid, from the tractions of the last two
@@ -91,8 +81,8 @@ static void clear_beyond(int64_t ld, int64_t m, double *x)
  * change the bits of the result. */
 static int choose_part(struct bem_stepper *s, int64_t least)
 {
-    const double growth = radius_of(s->motion.contact) - radius_of(s->before.contact);
-    const double wanted = (radius_of(s->motion.contact) + fmax(0, growth)) / s->setup->spacing + reach;
+    const double growth = rst_bem_radius_of(s->motion.contact) - rst_bem_radius_of(s->before.contact);
+    const double wanted = (rst_bem_radius_of(s->motion.contact) + fmax(0, growth)) / s->setup->spacing + reach;
     int64_t m = size_for(fmax(wanted, (double)least), s->f.m);
     const int64_t m_before = s->near ? s->near->m : 0;
     const int shrinks = growth < 0 && s->motion.contact < 0.98 * s->run->max_area;
@@ -104,8 +94,8 @@ static int choose_part(struct bem_stepper *s, int64_t least)
         for (int i = 0; i < 4; i++)
             clear_beyond(s->f.m, m, fields[i]);
     }
-    s->all = is_elastic(s->solid) ? s->near : rst_bem_memory_transform(s->memory, s->f.m);
-    if (m > m_before && is_elastic(s->solid) && s->run->steps > 0 && !s->setup->normal_only) {
+    s->all = rst_bem_is_elastic(s->solid) ? s->near : rst_bem_memory_transform(s->memory, s->f.m);
+    if (m > m_before && rst_bem_is_elastic(s->solid) && s->run->steps > 0 && !s->setup->normal_only) {
         look_back(s, s->f.p_before, s->f.tau_before, &s->before, s->f.gap_before, s->f.s_before);
         look_back(s, s->f.p, s->f.tau, &s->motion, s->f.gap, s->f.s);
     }

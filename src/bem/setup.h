@@ -43,6 +43,12 @@ struct bem_work {
     double normal, shear, friction, left_normal, left_shear;
 };
 
+/* Radius of a contact with that area. */
+static inline double rst_bem_radius_of(double area)
+{
+    return sqrt(area / 3.14159265358979323846);
+}
+
 struct bem_run {
     enum bem_end end;
     struct bem_motion last;

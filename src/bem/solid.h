@@ -17,6 +17,11 @@ struct bem_solid {
     double c, held, half_flow; /* u = c f - sum decay_k b_k + held f_before + drift */
 };
 
+static inline int rst_bem_is_elastic(const struct bem_solid *solid)
+{
+    return solid->n_terms == 0 && !(solid->flow > 0);
+}
+
 /* The arrays of `creep` hold at least the terms of the solid, and at least 1. */
 void rst_bem_solid_creep(const struct rst_solid *relaxation, struct bem_solid *creep);
 

@@ -4,9 +4,12 @@
 #include "bem/transform.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 
-#include "bem/planner.h"
+/* FFTW's planner is not thread-safe; solvers of several threads plan one after the other. Executing
+ * needs no lock. */
+static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
 
 /* Lines of a power of two of complex numbers would fall into the same few places of the cache. */
 enum { line_gap = 4 };
@@ -32,22 +35,22 @@ static int cosine_create(int64_t m, int64_t n, struct bem_cosine *c)
     c->columns_after = fftw_alloc_complex((size_t)(c->line * n / 2));
     if (!c->twiddles || !c->scratch || !c->rows || !c->columns || !c->rows_after || !c->columns_after) return 1;
     rst_bem_set_twiddles(n, c->twiddles);
-    rst_bem_lock_planner();
+    pthread_mutex_lock(&planner);
     c->row_forward = plan_lines(n, m / 2, c->line, c->rows, c->rows_after, FFTW_FORWARD);
     c->row_backward = plan_lines(n, m / 2, c->line, c->rows, c->rows_after, FFTW_BACKWARD);
     c->column_forward = plan_lines(n, n / 2, c->line, c->columns, c->columns_after, FFTW_FORWARD);
     c->column_backward = plan_lines(n, n / 2, c->line, c->columns_after, c->columns, FFTW_BACKWARD);
-    rst_bem_unlock_planner();
+    pthread_mutex_unlock(&planner);
     return !c->row_forward || !c->row_backward || !c->column_forward || !c->column_backward;
 }
 
 static void cosine_release(struct bem_cosine *c)
 {
     fftw_plan plans[] = {c->row_forward, c->row_backward, c->column_forward, c->column_backward};
-    rst_bem_lock_planner();
+    pthread_mutex_lock(&planner);
     for (int i = 0; i < 4; i++)
         if (plans[i]) fftw_destroy_plan(plans[i]);
-    rst_bem_unlock_planner();
+    pthread_mutex_unlock(&planner);
     fftw_free(c->twiddles);
     fftw_free(c->scratch);
     fftw_free(c->rows);
@@ -73,14 +76,14 @@ static void apply(const struct bem_cosine *c, const double *factor, int64_t ld, 
 static int transform_table(enum bem_kind kind, int64_t n, double *table)
 {
     rst_bem_influence_table(kind, n, table);
-    rst_bem_lock_planner();
+    pthread_mutex_lock(&planner);
     fftw_plan plan = fftw_plan_r2r_2d((int)n + 1, (int)n + 1, table, table, FFTW_REDFT00, FFTW_REDFT00, FFTW_ESTIMATE);
-    rst_bem_unlock_planner();
+    pthread_mutex_unlock(&planner);
     if (!plan) return 1;
     fftw_execute(plan);
-    rst_bem_lock_planner();
+    pthread_mutex_lock(&planner);
     fftw_destroy_plan(plan);
-    rst_bem_unlock_planner();
+    pthread_mutex_unlock(&planner);
     return 0;
 }
 
