@@ -45,15 +45,15 @@ static void standard_solid(double delta1, double gamma, struct rst_solid *solid)
     solid->tau[0] = gamma * theta;
 }
 
-static void given_solid(const restitute_material *material, struct rst_solid *solid)
+void rst_solid_of(const restitute_material *material, double factor, double time, struct rst_solid *solid)
 {
-    solid->g_inf = material->g_inf;
-    solid->eta = material->eta;
+    solid->g_inf = material->g_inf * factor;
+    solid->eta = material->eta * factor / time;
     solid->n_terms = (int64_t)material->n_terms;
     solid->can_sink = material->g_inf <= 0;
     for (size_t k = 0; k < material->n_terms; k++) {
-        solid->g[k] = material->g[k];
-        solid->tau[k] = material->tau[k];
+        solid->g[k] = material->g[k] * factor;
+        solid->tau[k] = material->tau[k] / time;
     }
 }
 
@@ -91,7 +91,7 @@ int rst_problem_from_impact(const restitute_impact *impact, struct rst_problem *
     problem->time_unit = 1;
     problem->unit_name = "T";
     if (impact->material)
-        given_solid(impact->material, &problem->solid);
+        rst_solid_of(impact->material, 1, 1, &problem->solid);
     else
         standard_solid(impact->delta1, impact->gamma, &problem->solid);
     return impact->material ? rst_check_damping(&problem->solid, error) : RESTITUTE_OK;

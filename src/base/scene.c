@@ -162,20 +162,10 @@ int rst_problem_from_scene(const restitute_scene *scene, restitute_numbers *numb
     if (!status) status = numbers_of(scene, numbers, error);
     if (status) return status;
 
-    const restitute_material *material = scene->material;
-    double factor = pair_factor(scene) / numbers->modulus;
-    struct rst_solid *solid = &problem->solid;
-    solid->g_inf = material->g_inf * factor;
-    solid->eta = material->eta * factor / numbers->time;
-    solid->can_sink = material->g_inf <= 0;
-    solid->n_terms = (int64_t)material->n_terms;
-    for (size_t k = 0; k < material->n_terms; k++) {
-        solid->g[k] = material->g[k] * factor;
-        solid->tau[k] = material->tau[k] / numbers->time;
-    }
+    rst_solid_of(scene->material, pair_factor(scene) / numbers->modulus, numbers->time, &problem->solid);
     problem->chi = fmin(numbers->chi, rst_largest_chi); /* without friction any value will do */
     rst_set_sliding(numbers->psi, problem);
     problem->time_unit = numbers->time;
     problem->unit_name = "s";
-    return rst_check_damping(solid, error);
+    return rst_check_damping(&problem->solid, error);
 }
