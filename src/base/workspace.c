@@ -4,26 +4,26 @@
 
 #include <stdlib.h>
 
-static int grow(double **block, size_t *size, size_t wanted)
+int rst_make_room(double **room, size_t *size, size_t count)
 {
-    if (wanted <= *size) return 0;
-    if (wanted > SIZE_MAX / sizeof(double)) return 1;
-    double *larger = malloc(wanted * sizeof(double));
+    if (count <= *size) return 0;
+    if (count > SIZE_MAX / sizeof(double)) return 1;
+    double *larger = malloc(count * sizeof(double));
     if (!larger) return 1;
-    free(*block);
-    *block = larger;
-    *size = wanted;
+    free(*room);
+    *room = larger;
+    *size = count;
     return 0;
 }
 
 int rst_workspace_terms(struct rst_workspace *workspace, size_t n_terms)
 {
-    return grow(&workspace->terms, &workspace->terms_size, rst_term_arrays * (n_terms > 0 ? n_terms : 1));
+    return rst_make_room(&workspace->terms, &workspace->terms_size, rst_term_arrays * (n_terms > 0 ? n_terms : 1));
 }
 
 int rst_workspace_elements(struct rst_workspace *workspace, size_t count)
 {
-    return grow(&workspace->elements, &workspace->elements_size, count);
+    return rst_make_room(&workspace->elements, &workspace->elements_size, count);
 }
 
 void rst_workspace_free(struct rst_workspace *workspace)

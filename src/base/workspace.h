@@ -5,6 +5,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 /* First member of what a method of another component keeps in the workspace. */
 struct rst_own_memory {
@@ -19,6 +20,19 @@ struct rst_workspace {
     struct rst_own_memory *own; /* of the solver's method; NULL: none */
     int keeps_motion;           /* whether the normal motion is kept for later impacts on the same solid */
 };
+
+/* What the method keeps in the workspace: `size` bytes, zeros at first. NULL: out of memory. */
+static inline void *rst_own_memory_of(struct rst_workspace *workspace, size_t size,
+                                      void (*release)(struct rst_own_memory *memory))
+{
+    if (!workspace->own) workspace->own = calloc(1, size);
+    if (workspace->own) workspace->own->release = release;
+    return workspace->own;
+}
+
+/* Room for `count` doubles; what was in it is lost if it grows. Nonzero: out of memory, the old
+ * contents are kept. */
+int rst_make_room(double **room, size_t *size, size_t count);
 
 /* Room for the arrays of n_terms terms (at least 1). Nonzero: out of memory, the old contents are
  * kept. */

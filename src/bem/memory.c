@@ -17,13 +17,7 @@ static void release(struct rst_own_memory *own)
 
 struct bem_memory *rst_bem_memory_of(struct rst_workspace *workspace)
 {
-    if (!workspace->own) {
-        struct bem_memory *memory = calloc(1, sizeof *memory);
-        if (!memory) return NULL;
-        memory->base.release = release;
-        workspace->own = &memory->base;
-    }
-    return (struct bem_memory *)workspace->own;
+    return rst_own_memory_of(workspace, sizeof(struct bem_memory), release);
 }
 
 int rst_bem_memory_fields(struct bem_memory *memory, int64_t m, int64_t n_terms, struct bem_fields *fields)

@@ -16,12 +16,7 @@ static void release(struct rst_own_memory *own)
 static int reserve(double tolerance, struct rst_workspace *workspace)
 {
     (void)tolerance;
-    if (workspace->own) return 0;
-    struct cvode_memory *memory = calloc(1, sizeof *memory);
-    if (!memory) return 1;
-    memory->base.release = release;
-    workspace->own = &memory->base;
-    return 0;
+    return !rst_own_memory_of(workspace, sizeof(struct cvode_memory), release);
 }
 
 static int solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,

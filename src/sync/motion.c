@@ -21,24 +21,7 @@ static void release(struct rst_own_memory *own)
 
 struct rst_motion *rst_motion_of(struct rst_workspace *workspace)
 {
-    if (!workspace->own) {
-        struct rst_motion *motion = calloc(1, sizeof *motion);
-        if (!motion) return NULL;
-        motion->own.release = release;
-        workspace->own = &motion->own;
-    }
-    return (struct rst_motion *)workspace->own;
-}
-
-int rst_make_room(double **room, size_t *size, size_t count)
-{
-    if (count <= *size) return 0;
-    double *larger = malloc(count * sizeof(double));
-    if (!larger) return 1;
-    free(*room);
-    *room = larger;
-    *size = count;
-    return 0;
+    return rst_own_memory_of(workspace, sizeof(struct rst_motion), release);
 }
 
 /* The arms of a solid: the spring G_inf, if there is one, and the terms. */
@@ -59,11 +42,9 @@ static int64_t spread_arms(const struct rst_solid *s, double *g, double *rate)
 /* Arms of the solid held, then those of the solid asked for: g and rate of each. */
 static int make_arms(struct rst_motion *motion, int64_t most)
 {
+    size_t size = (size_t)(4 * motion->most_arms);
     if (most <= motion->most_arms) return 0;
-    double *arms = malloc((size_t)(4 * most) * sizeof(double));
-    if (!arms) return 1;
-    free(motion->arms);
-    motion->arms = arms;
+    if (rst_make_room(&motion->arms, &size, (size_t)(4 * most))) return 1;
     motion->most_arms = most;
     motion->n_arms = -1; /* of no solid */
     return 0;

@@ -36,9 +36,6 @@ struct rst_motion {
     size_t store_size, walk_size;
 };
 
-/* Room for `count` doubles; what was in it is lost if it grows. Nonzero: out of memory. */
-int rst_make_room(double **room, size_t *size, size_t count);
-
 /* The motion that a workspace keeps; NULL: out of memory. */
 struct rst_motion *rst_motion_of(struct rst_workspace *workspace);
 
