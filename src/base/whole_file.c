@@ -12,7 +12,8 @@
 #include "base/report.h"
 
 /* Without O_NONBLOCK a FIFO would wait for its writer. */
-int rst_open_regular(const char *path, const char *name, uint64_t most, int *file, size_t *size, restitute_error *error)
+static int open_regular(const char *path, const char *name, uint64_t most, int *file, size_t *size,
+                        restitute_error *error)
 {
     struct stat status;
     *file = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
@@ -37,7 +38,7 @@ int rst_read_whole(const char *path, const char *name, uint64_t most, char **byt
 {
     int file = -1;
     size_t expected = 0, length = 0;
-    const int status = rst_open_regular(path, name, most, &file, &expected, error);
+    const int status = open_regular(path, name, most, &file, &expected, error);
     if (status != RESTITUTE_OK) return status;
     char *text = malloc(expected + 2); /* room for one byte more shows a file that grows, and for the NUL */
     ssize_t count = text ? 1 : 0;

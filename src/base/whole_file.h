@@ -6,11 +6,7 @@
 
 #include <restitute/restitute.h>
 
-/* Open it; `name` stands for it in messages. */
-int rst_open_regular(const char *path, const char *name, uint64_t most, int *file, size_t *size,
-                     restitute_error *error);
-
-/* All of it, with a NUL behind. The caller frees *bytes. */
+/* All of it, with a NUL behind; `name` stands for it in messages. The caller frees *bytes. */
 int rst_read_whole(const char *path, const char *name, uint64_t most, char **bytes, size_t *size,
                    restitute_error *error);
 

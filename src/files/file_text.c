@@ -18,9 +18,9 @@ int rst_file_text_read(const char *path, struct file_text *text, restitute_error
     return rst_read_whole(path, rst_file_name_for_message(path), UINT64_C(1) << 26, &text->bytes, &text->length, error);
 }
 
-uint64_t rst_file_text_fingerprint(const struct file_text *text, uint64_t start)
+uint64_t rst_file_text_fingerprint(const struct file_text *text)
 {
-    uint64_t hash = start;
+    uint64_t hash = UINT64_C(14695981039346656037);
     for (size_t i = 0; i < text->length; i++)
         hash = (hash ^ (unsigned char)text->bytes[i]) * UINT64_C(1099511628211);
     return hash;

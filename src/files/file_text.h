@@ -15,9 +15,8 @@ struct file_text {
  * text->bytes. */
 int rst_file_text_read(const char *path, struct file_text *text, restitute_error *error);
 
-/* FNV-1a over the text, continued from `start`; begin with FILE_FINGERPRINT_START. */
-#define FILE_FINGERPRINT_START UINT64_C(14695981039346656037)
-uint64_t rst_file_text_fingerprint(const struct file_text *text, uint64_t start);
+/* FNV-1a over the text. */
+uint64_t rst_file_text_fingerprint(const struct file_text *text);
 
 /* The path, or only its end if it would crowd the rest out of a message. */
 const char *rst_file_name_for_message(const char *path);

@@ -273,7 +273,7 @@ static int read_json_material(const char *path, restitute_material **material, r
     if (status != RESTITUTE_OK) return status;
     json_error_t reason;
     struct json_file file = {path, rst_file_name_for_message(path), text.bytes, NULL, 0, error};
-    file.fingerprint = rst_file_text_fingerprint(&text, FILE_FINGERPRINT_START);
+    file.fingerprint = rst_file_text_fingerprint(&text);
     errno = 0; /* if memory runs out, Jansson reports nothing, or a syntax error */
     const size_t mark = strncmp(text.bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; /* of byte order, by Windows */
     file.root =

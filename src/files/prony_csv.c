@@ -140,7 +140,7 @@ int rst_prony_terms_read_csv(const char *path, struct prony_terms *terms, uint64
     struct file_text text;
     int status = rst_file_text_read(path, &text, error);
     if (status != RESTITUTE_OK) return status;
-    *fingerprint = rst_file_text_fingerprint(&text, FILE_FINGERPRINT_START);
+    *fingerprint = rst_file_text_fingerprint(&text);
     status = terms_from_text(&text, rst_file_name_for_message(path), terms, error);
     free(text.bytes);
     return status;

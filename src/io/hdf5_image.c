@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char rst_no_file[] = "/dev/null/in_memory";
+/* HDF5 needs a name even for a file in memory, and no file may have it. */
+static const char no_file[] = "/dev/null/in_memory";
 
 hid_t rst_image_create(hsize_t block)
 {
@@ -14,7 +15,7 @@ hid_t rst_image_create(hsize_t block)
     hid_t file = -1;
     if (access >= 0 && creation >= 0 && H5Pset_fapl_core(access, increment, 0) >= 0 &&
         H5Pset_userblock(creation, block) >= 0)
-        file = H5Fcreate(rst_no_file, H5F_ACC_TRUNC, creation, access);
+        file = H5Fcreate(no_file, H5F_ACC_TRUNC, creation, access);
     if (access >= 0) H5Pclose(access);
     if (creation >= 0) H5Pclose(creation);
     return file;

@@ -6,9 +6,6 @@
 
 #include <hdf5.h>
 
-/* HDF5 needs a name even for a file in memory, and no file may have it. */
-extern const char rst_no_file[];
-
 /* A new file in memory. Its content will begin at byte `block` of the final file. Negative: HDF5
  * fails. */
 hid_t rst_image_create(hsize_t block);

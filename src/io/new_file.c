@@ -13,7 +13,9 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-int rst_lock(int descriptor, const char *name)
+/* Lock an open file as long as it is open. Returns 0; EWOULDBLOCK: another process has locked it;
+ * ESTALE: it no longer has this name; another errno: the file system has no locks. */
+static int lock(int descriptor, const char *name)
 {
     struct stat ours, named;
     if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) return errno;
@@ -32,7 +34,8 @@ static void make_alike(int descriptor, const struct stat *model)
     fchmod(descriptor, mode);
 }
 
-int rst_create(const char *name, const struct rst_place *place)
+/* Make a file that is not there yet. Returns the descriptor, or -1 with errno. */
+static int create(const char *name, const struct rst_place *place)
 {
     const int file = open(name, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, place->exists ? 0600 : 0666);
     if (file >= 0 && place->exists) make_alike(file, &place->status);
@@ -44,7 +47,7 @@ static void remove_stale(const char *name)
 {
     const int file = open(name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) return;
-    if (rst_lock(file, name) == 0) unlink(name);
+    if (lock(file, name) == 0) unlink(name);
     close(file);
 }
 
@@ -60,11 +63,11 @@ static int open_temporary(struct rst_new_file *file)
     for (int i = 0; i < numbers && problem == EEXIST; i++) {
         snprintf(file->temporary, size, "%s.restitute-%d.tmp", file->place.target, i);
         remove_stale(file->temporary);
-        file->descriptor = rst_create(file->temporary, &file->place);
+        file->descriptor = create(file->temporary, &file->place);
         problem = file->descriptor < 0 ? errno : 0;
         if (problem) continue;
-        const int lock = rst_lock(file->descriptor, file->temporary);
-        if (lock != EWOULDBLOCK && lock != ESTALE) return 0;
+        const int locked = lock(file->descriptor, file->temporary);
+        if (locked != EWOULDBLOCK && locked != ESTALE) return 0;
         close(file->descriptor);
         problem = EEXIST;
     }
@@ -74,13 +77,13 @@ static int open_temporary(struct rst_new_file *file)
     return problem;
 }
 
-int rst_open_through(const struct rst_place *place)
+static int open_through(const struct rst_place *place)
 {
     if (place->descriptor >= 0) return fcntl(place->descriptor, F_DUPFD_CLOEXEC, 3);
     return open(place->target, O_WRONLY | O_APPEND | O_NOCTTY | O_CLOEXEC);
 }
 
-int rst_write_all(int descriptor, const char *bytes, size_t size)
+static int write_all(int descriptor, const char *bytes, size_t size)
 {
     while (size > 0) {
         const ssize_t count = write(descriptor, bytes, size);
@@ -93,6 +96,15 @@ int rst_write_all(int descriptor, const char *bytes, size_t size)
     return 0;
 }
 
+static void drop(struct rst_new_file *file)
+{
+    if (file->temporary) unlink(file->temporary);
+    if (file->descriptor >= 0) close(file->descriptor);
+    free(file->temporary);
+    rst_place_release(&file->place);
+    *file = (struct rst_new_file){.descriptor = -1};
+}
+
 int rst_new_file_write(const char *path, const void *bytes, size_t size, struct rst_new_file *file)
 {
     *file = (struct rst_new_file){.descriptor = -1};
@@ -100,17 +112,17 @@ int rst_new_file_write(const char *path, const void *bytes, size_t size, struct 
     if (!problem) problem = rst_place_check(&file->place);
     if (!problem && !file->place.through)
         problem = open_temporary(file);
-    else if (!problem && (file->descriptor = rst_open_through(&file->place)) < 0)
+    else if (!problem && (file->descriptor = open_through(&file->place)) < 0)
         problem = errno;
-    if (!problem) problem = rst_write_all(file->descriptor, bytes, size);
+    if (!problem) problem = write_all(file->descriptor, bytes, size);
     if (!problem && file->temporary && fsync(file->descriptor) != 0) problem = errno;
-    if (problem) rst_new_file_drop(file);
+    if (problem) drop(file);
     return problem;
 }
 
 /* Flush the folder, too, so that the new name is on the disk. A file system that cannot do this is
  * not an error. */
-int rst_rename(const char *name, const char *target)
+static int give_name(const char *name, const char *target)
 {
     if (rename(name, target) != 0) return errno;
     char *folder = rst_folder_of(target);
@@ -126,20 +138,11 @@ int rst_rename(const char *name, const char *target)
 int rst_new_file_commit(struct rst_new_file *file)
 {
     int problem = 0;
-    if (file->temporary) problem = rst_rename(file->temporary, file->place.target);
+    if (file->temporary) problem = give_name(file->temporary, file->place.target);
     if (!problem) {
         free(file->temporary);
         file->temporary = NULL;
     }
-    rst_new_file_drop(file);
+    drop(file);
     return problem;
-}
-
-void rst_new_file_drop(struct rst_new_file *file)
-{
-    if (file->temporary) unlink(file->temporary);
-    if (file->descriptor >= 0) close(file->descriptor);
-    free(file->temporary);
-    rst_place_release(&file->place);
-    *file = (struct rst_new_file){.descriptor = -1};
 }
