@@ -46,31 +46,30 @@ static int check_member(double value, struct rst_range range, double besides, co
     return rst_check_within(value, range, besides, place, error);
 }
 
-static int check_vector(const double x[3], struct rst_range range, const char *body, const char *const name[3],
+static int check_vector(const double x[3], struct rst_range range, const char *body, const char *name,
                         restitute_error *error)
 {
-    int status = RESTITUTE_OK;
-    for (int i = 0; i < 3 && !status; i++)
-        status = check_member(x[i], range, NAN, body, name[i], error);
-    return status;
+    char component[24];
+    for (int i = 0; i < 3; i++) {
+        if (rst_is_within(x[i], range, NAN)) continue;
+        snprintf(component, sizeof component, "%s[%d]", name, i);
+        return check_member(x[i], range, NAN, body, component, error);
+    }
+    return RESTITUTE_OK;
 }
 
 static int check_body(const restitute_body *b, const char *name, restitute_error *error)
 {
-    static const char *const position[3] = {"position[0]", "position[1]", "position[2]"};
-    static const char *const velocity[3] = {"velocity[0]", "velocity[1]", "velocity[2]"};
-    static const char *const normal[3] = {"normal[0]", "normal[1]", "normal[2]"};
-    static const char *const spin[3] = {"spin[0]", "spin[1]", "spin[2]"};
     int status = RST_CHECK(body, b, error);
-    if (!status) status = check_vector(b->position, rst_positions, name, position, error);
-    if (!status) status = check_vector(b->velocity, rst_speeds, name, velocity, error);
+    if (!status) status = check_vector(b->position, rst_positions, name, "position", error);
+    if (!status) status = check_vector(b->velocity, rst_speeds, name, "velocity", error);
     if (!status) status = check_member(b->radius, rst_sizes, INFINITY, name, "radius (m)", error);
     if (status) return status;
     if (rst_is_plane(b)) {
-        status = check_vector(b->normal, rst_positions, name, normal, error);
+        status = check_vector(b->normal, rst_positions, name, "normal", error);
         return status ? status : check_member(length(from(b->normal)), rst_lengths, NAN, name, " normal", error);
     }
-    status = check_vector(b->spin, rst_spins, name, spin, error);
+    status = check_vector(b->spin, rst_spins, name, "spin", error);
     if (!status) status = check_member(b->mass, rst_sizes, INFINITY, name, "mass (kg)", error);
     if (!status) status = check_member(b->inertia, rst_inertias, 0, name, "inertia (kg m^2)", error);
     return status;
