@@ -13,7 +13,6 @@
 !> it is no state; since f(A) = 0 it does not appear in the derivatives of the force either: those
 !> are A times G_inf, eta and 1.
 module rst_cvode_contact
-  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use rst_cvode_types, only: scene_type, contact_type, state_depth, state_velocity, memory_at, loading_at
   use rst_motion_factors, only: mass_factor
   use rst_precision, only: dp, ip
@@ -28,12 +27,12 @@ contains
   !> starts, kept between calls.
   subroutine normal_rates(scene, g, tau, knot, memory, near, t, y, rate, contact) bind(c, name="rst_cvode_normal_rates")
     type(scene_type), intent(in) :: scene
-    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
-    real(c_double), intent(in) :: knot(3, scene%n_knots), memory(2*scene%n_terms, scene%n_knots)
-    integer(c_int64_t), intent(inout) :: near
-    real(c_double), intent(in), value :: t
-    real(c_double), intent(in) :: y(scene%n_states)
-    real(c_double), intent(inout) :: rate(scene%n_states)
+    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
+    real(dp), intent(in) :: knot(3, scene%n_knots), memory(2*scene%n_terms, scene%n_knots)
+    integer(ip), intent(inout) :: near
+    real(dp), intent(in), value :: t
+    real(dp), intent(in) :: y(scene%n_states)
+    real(dp), intent(inout) :: rate(scene%n_states)
     type(contact_type), intent(out) :: contact
     real(dp) :: velocity
     integer(ip) :: k, m, p
@@ -177,9 +176,9 @@ contains
   !> M and P of the compression at a time.
   subroutine past_of(scene, knot, memory, t, past) bind(c, name="rst_cvode_past")
     type(scene_type), intent(in) :: scene
-    real(c_double), intent(in) :: knot(3, scene%n_knots), memory(2*scene%n_terms, scene%n_knots)
-    real(c_double), intent(in), value :: t
-    real(c_double), intent(out) :: past(2*scene%n_terms)
+    real(dp), intent(in) :: knot(3, scene%n_knots), memory(2*scene%n_terms, scene%n_knots)
+    real(dp), intent(in), value :: t
+    real(dp), intent(out) :: past(2*scene%n_terms)
     real(dp) :: weight(4)
     integer(ip) :: low, high, middle, j, k
     low = 1
@@ -218,9 +217,9 @@ contains
 
   !> Hermite's cubic through depth and velocity at both ends, and its slope.
   pure subroutine hermite(before, after, t, depth, slope) bind(c, name="rst_cvode_hermite")
-    real(c_double), intent(in) :: before(3), after(3)
-    real(c_double), intent(in), value :: t
-    real(c_double), intent(out) :: depth, slope
+    real(dp), intent(in) :: before(3), after(3)
+    real(dp), intent(in), value :: t
+    real(dp), intent(out) :: depth, slope
     real(dp) :: h, x, a, b
     h = after(1) - before(1)
     x = (t - before(1))/h

@@ -24,7 +24,6 @@
 !>
 !>   missed(z) = (1 + exp(-z))/2 - (1 - exp(-z))/z,   z: what passed between the entries of both ends, over tau_k.
 module rst_cvode_elements
-  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use rst_cvode_types, only: scene_type, contact_type, shear_sums_type, state_depth, state_velocity, memory_at, shift_at, &
                              shear_velocity_at, shear_memory_at
   use rst_motion_factors, only: shear_factor
@@ -43,8 +42,8 @@ contains
   !> missed(z) of the cell inside each element.
   subroutine layer_weights(scene, tau, entry, layer_weight) bind(c, name="rst_cvode_layer_weights")
     type(scene_type), intent(in) :: scene
-    real(c_double), intent(in) :: tau(scene%n_terms), entry(scene%n_nodes)
-    real(c_double), intent(out) :: layer_weight(scene%n_nodes, scene%n_terms)
+    real(dp), intent(in) :: tau(scene%n_terms), entry(scene%n_nodes)
+    real(dp), intent(out) :: layer_weight(scene%n_nodes, scene%n_terms)
     integer(ip) :: i, k
     do k = 1, scene%n_terms
       layer_weight(1, k) = 0
@@ -72,15 +71,15 @@ contains
                      n_contact, d, f, layer) bind(c, name="rst_cvode_margins")
     type(scene_type), intent(in) :: scene
     type(contact_type), intent(in) :: contact
-    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
-    real(c_double), intent(in) :: x(scene%n_nodes), entry(scene%n_nodes), past(scene%n_nodes, scene%n_terms)
-    real(c_double), intent(in) :: shift(scene%n_nodes), c(scene%n_nodes, scene%n_terms), b(scene%n_nodes, scene%n_terms)
-    real(c_double), intent(in) :: layer_weight(scene%n_nodes, scene%n_terms)
-    real(c_double), intent(in) :: start_y(scene%n_states), start_rate(scene%n_states)
-    real(c_double), intent(in), value :: t
-    real(c_double), intent(in) :: y(scene%n_states)
-    integer(c_int64_t), intent(inout) :: n_contact  !! in: a guess
-    real(c_double), intent(inout) :: d(scene%n_nodes), f(scene%n_nodes), layer(scene%n_nodes)
+    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
+    real(dp), intent(in) :: x(scene%n_nodes), entry(scene%n_nodes), past(scene%n_nodes, scene%n_terms)
+    real(dp), intent(in) :: shift(scene%n_nodes), c(scene%n_nodes, scene%n_terms), b(scene%n_nodes, scene%n_terms)
+    real(dp), intent(in) :: layer_weight(scene%n_nodes, scene%n_terms)
+    real(dp), intent(in) :: start_y(scene%n_states), start_rate(scene%n_states)
+    real(dp), intent(in), value :: t
+    real(dp), intent(in) :: y(scene%n_states)
+    integer(ip), intent(inout) :: n_contact  !! in: a guess
+    real(dp), intent(inout) :: d(scene%n_nodes), f(scene%n_nodes), layer(scene%n_nodes)
     real(dp) :: common_d, common_f, faded
     integer(ip) :: i, k, known, new
 
@@ -262,13 +261,13 @@ contains
     bind(c, name="rst_cvode_force_by_rule")
     type(scene_type), intent(in) :: scene
     type(contact_type), intent(in) :: contact
-    real(c_double), intent(in) :: tau(scene%n_terms), x(scene%n_nodes), entry(scene%n_nodes)
-    real(c_double), intent(in) :: past(scene%n_nodes, scene%n_terms), c(scene%n_nodes, scene%n_terms)
-    real(c_double), intent(in) :: layer_weight(scene%n_nodes, scene%n_terms)
-    integer(c_int64_t), intent(in), value :: n
-    real(c_double), intent(in) :: f(scene%n_nodes), y(scene%n_states)
-    real(c_double), intent(in), value :: t
-    real(c_double), intent(out) :: force
+    real(dp), intent(in) :: tau(scene%n_terms), x(scene%n_nodes), entry(scene%n_nodes)
+    real(dp), intent(in) :: past(scene%n_nodes, scene%n_terms), c(scene%n_nodes, scene%n_terms)
+    real(dp), intent(in) :: layer_weight(scene%n_nodes, scene%n_terms)
+    integer(ip), intent(in), value :: n
+    real(dp), intent(in) :: f(scene%n_nodes), y(scene%n_states)
+    real(dp), intent(in), value :: t
+    real(dp), intent(out) :: force
     real(dp) :: width, faded
     integer(ip) :: i, k
     force = 0
@@ -296,13 +295,13 @@ contains
     bind(c, name="rst_cvode_shear_rates")
     type(scene_type), intent(in) :: scene
     type(contact_type), intent(in) :: contact
-    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms), x(scene%n_nodes), entry(scene%n_nodes)
-    integer(c_int64_t), intent(in) :: motion(scene%n_nodes)
-    integer(c_int64_t), intent(in), value :: n_contact
-    real(c_double), intent(in) :: d(scene%n_nodes), f(scene%n_nodes), layer(scene%n_nodes)
-    real(c_double), intent(in), value :: t
-    real(c_double), intent(in) :: y(scene%n_states)
-    real(c_double), intent(inout) :: rate(scene%n_states)
+    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms), x(scene%n_nodes), entry(scene%n_nodes)
+    integer(ip), intent(in) :: motion(scene%n_nodes)
+    integer(ip), intent(in), value :: n_contact
+    real(dp), intent(in) :: d(scene%n_nodes), f(scene%n_nodes), layer(scene%n_nodes)
+    real(dp), intent(in), value :: t
+    real(dp), intent(in) :: y(scene%n_states)
+    real(dp), intent(inout) :: rate(scene%n_states)
     type(shear_sums_type), intent(out) :: sums
     real(dp) :: velocity, missing
     integer(ip) :: k, m
@@ -366,12 +365,12 @@ contains
   subroutine slip_rates(scene, motion, n_contact, rate_of, u_of, amplitude, least_stress, least_velocity, d, f, t, y, value) &
     bind(c, name="rst_cvode_slip_rates")
     type(scene_type), intent(in) :: scene
-    integer(c_int64_t), intent(in) :: motion(scene%n_nodes)
-    integer(c_int64_t), intent(in), value :: n_contact
-    real(c_double), intent(in) :: rate_of(scene%n_modes), u_of(scene%n_modes), amplitude(scene%n_nodes, scene%n_modes)
-    real(c_double), intent(in), value :: least_stress, least_velocity, t
-    real(c_double), intent(in) :: d(scene%n_nodes), f(scene%n_nodes), y(scene%n_states)
-    real(c_double), intent(out) :: value(scene%n_nodes)
+    integer(ip), intent(in) :: motion(scene%n_nodes)
+    integer(ip), intent(in), value :: n_contact
+    real(dp), intent(in) :: rate_of(scene%n_modes), u_of(scene%n_modes), amplitude(scene%n_nodes, scene%n_modes)
+    real(dp), intent(in), value :: least_stress, least_velocity, t
+    real(dp), intent(in) :: d(scene%n_nodes), f(scene%n_nodes), y(scene%n_states)
+    real(dp), intent(out) :: value(scene%n_nodes)
     real(dp) :: velocity, recovering, weight
     integer(ip) :: i, j
     do i = 1, scene%n_nodes
@@ -396,10 +395,10 @@ contains
   !> Fading memory from the reference time to `time`.
   subroutine fade(scene, tau, rate_of, time, c, b, amplitude) bind(c, name="rst_cvode_fade")
     type(scene_type), intent(in) :: scene
-    real(c_double), intent(in) :: tau(scene%n_terms), rate_of(scene%n_modes)
-    real(c_double), intent(in), value :: time
-    real(c_double), intent(inout) :: c(scene%n_nodes, scene%n_terms), b(scene%n_nodes, scene%n_terms)
-    real(c_double), intent(inout) :: amplitude(scene%n_nodes, scene%n_modes)
+    real(dp), intent(in) :: tau(scene%n_terms), rate_of(scene%n_modes)
+    real(dp), intent(in), value :: time
+    real(dp), intent(inout) :: c(scene%n_nodes, scene%n_terms), b(scene%n_nodes, scene%n_terms)
+    real(dp), intent(inout) :: amplitude(scene%n_nodes, scene%n_modes)
     real(dp) :: faded
     integer(ip) :: i, j, k
     do k = 1, scene%n_terms
@@ -421,13 +420,13 @@ contains
   !> slips at once if the sphere moves faster along the surface than into it.
   subroutine enter_element(scene, tau, i, entry, past, y, motion, shift, c, b, amplitude) bind(c, name="rst_cvode_enter_element")
     type(scene_type), intent(in) :: scene
-    real(c_double), intent(in) :: tau(scene%n_terms)
-    integer(c_int64_t), intent(in), value :: i
-    real(c_double), intent(in), value :: entry
-    real(c_double), intent(in) :: past(scene%n_nodes, scene%n_terms), y(scene%n_states)
-    integer(c_int64_t), intent(inout) :: motion(scene%n_nodes)
-    real(c_double), intent(inout) :: shift(scene%n_nodes), c(scene%n_nodes, scene%n_terms), b(scene%n_nodes, scene%n_terms)
-    real(c_double), intent(inout) :: amplitude(scene%n_nodes, scene%n_modes)
+    real(dp), intent(in) :: tau(scene%n_terms)
+    integer(ip), intent(in), value :: i
+    real(dp), intent(in), value :: entry
+    real(dp), intent(in) :: past(scene%n_nodes, scene%n_terms), y(scene%n_states)
+    integer(ip), intent(inout) :: motion(scene%n_nodes)
+    real(dp), intent(inout) :: shift(scene%n_nodes), c(scene%n_nodes, scene%n_terms), b(scene%n_nodes, scene%n_terms)
+    real(dp), intent(inout) :: amplitude(scene%n_nodes, scene%n_modes)
     real(dp) :: faded
     integer(ip) :: j, k
     shift(i) = y(shift_at(scene))
@@ -450,14 +449,14 @@ contains
   subroutine begin_slip(scene, g, x, i, d, f, from_u, from_v, shift, c, b, y, motion, amplitude) &
     bind(c, name="rst_cvode_begin_slip")
     type(scene_type), intent(in) :: scene
-    real(c_double), intent(in) :: g(scene%n_terms), x(scene%n_nodes)
-    integer(c_int64_t), intent(in), value :: i
-    real(c_double), intent(in) :: d(scene%n_nodes), f(scene%n_nodes)
-    real(c_double), intent(in) :: from_u(scene%n_modes), from_v(scene%n_terms, scene%n_modes)
-    real(c_double), intent(in) :: shift(scene%n_nodes), c(scene%n_nodes, scene%n_terms), b(scene%n_nodes, scene%n_terms)
-    real(c_double), intent(in) :: y(scene%n_states)
-    integer(c_int64_t), intent(inout) :: motion(scene%n_nodes)
-    real(c_double), intent(inout) :: amplitude(scene%n_nodes, scene%n_modes)
+    real(dp), intent(in) :: g(scene%n_terms), x(scene%n_nodes)
+    integer(ip), intent(in), value :: i
+    real(dp), intent(in) :: d(scene%n_nodes), f(scene%n_nodes)
+    real(dp), intent(in) :: from_u(scene%n_modes), from_v(scene%n_terms, scene%n_modes)
+    real(dp), intent(in) :: shift(scene%n_nodes), c(scene%n_nodes, scene%n_terms), b(scene%n_nodes, scene%n_terms)
+    real(dp), intent(in) :: y(scene%n_states)
+    integer(ip), intent(inout) :: motion(scene%n_nodes)
+    real(dp), intent(inout) :: amplitude(scene%n_nodes, scene%n_modes)
     real(dp) :: sense, u, stress
     integer(ip) :: j, k
     motion(i) = merge(slips_backward, slips_forward, d(i) > f(i))
@@ -476,13 +475,13 @@ contains
   !> stresses.
   subroutine begin_stick(scene, g, x, i, u_of, v_of, shift, c, b, y, motion, amplitude) bind(c, name="rst_cvode_begin_stick")
     type(scene_type), intent(in) :: scene
-    real(c_double), intent(in) :: g(scene%n_terms), x(scene%n_nodes)
-    integer(c_int64_t), intent(in), value :: i
-    real(c_double), intent(in) :: u_of(scene%n_modes), v_of(scene%n_terms, scene%n_modes)
-    real(c_double), intent(inout) :: shift(scene%n_nodes), b(scene%n_nodes, scene%n_terms)
-    real(c_double), intent(in) :: c(scene%n_nodes, scene%n_terms), y(scene%n_states)
-    integer(c_int64_t), intent(inout) :: motion(scene%n_nodes)
-    real(c_double), intent(in) :: amplitude(scene%n_nodes, scene%n_modes)
+    real(dp), intent(in) :: g(scene%n_terms), x(scene%n_nodes)
+    integer(ip), intent(in), value :: i
+    real(dp), intent(in) :: u_of(scene%n_modes), v_of(scene%n_terms, scene%n_modes)
+    real(dp), intent(inout) :: shift(scene%n_nodes), b(scene%n_nodes, scene%n_terms)
+    real(dp), intent(in) :: c(scene%n_nodes, scene%n_terms), y(scene%n_states)
+    integer(ip), intent(inout) :: motion(scene%n_nodes)
+    real(dp), intent(in) :: amplitude(scene%n_nodes, scene%n_modes)
     real(dp) :: sense, u, v
     integer(ip) :: j, k
     sense = real(motion(i), dp)

@@ -2,7 +2,6 @@
 !> Energies of the elements at an instant, for the ledger of the method `cvode` (docs/theory.md,
 !> section 8). In gross slip the tangential state of an element equals its normal one.
 module rst_cvode_ledger
-  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use rst_cvode_types, only: scene_type, energy_type, state_depth, state_velocity, memory_at, shift_at, shear_velocity_at, &
                              shear_memory_at
   use rst_precision, only: dp, ip
@@ -17,15 +16,15 @@ contains
   subroutine element_energies(scene, g, tau, x, entry, past, motion, shift, c, b, rate_of, u_of, v_of, amplitude, shears, &
                               n_last, t, y, energy) bind(c, name="rst_cvode_element_energies")
     type(scene_type), intent(in) :: scene
-    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms), x(scene%n_nodes), entry(scene%n_nodes)
-    real(c_double), intent(in) :: past(scene%n_nodes, scene%n_terms)
-    integer(c_int64_t), intent(in) :: motion(scene%n_nodes)
-    real(c_double), intent(in) :: shift(scene%n_nodes), c(scene%n_nodes, scene%n_terms), b(scene%n_nodes, scene%n_terms)
-    real(c_double), intent(in) :: rate_of(scene%n_modes), u_of(scene%n_modes), v_of(scene%n_terms, scene%n_modes)
-    real(c_double), intent(in) :: amplitude(scene%n_nodes, scene%n_modes)
-    integer(c_int64_t), intent(in), value :: shears, n_last
-    real(c_double), intent(in), value :: t
-    real(c_double), intent(in) :: y(scene%n_states)
+    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms), x(scene%n_nodes), entry(scene%n_nodes)
+    real(dp), intent(in) :: past(scene%n_nodes, scene%n_terms)
+    integer(ip), intent(in) :: motion(scene%n_nodes)
+    real(dp), intent(in) :: shift(scene%n_nodes), c(scene%n_nodes, scene%n_terms), b(scene%n_nodes, scene%n_terms)
+    real(dp), intent(in) :: rate_of(scene%n_modes), u_of(scene%n_modes), v_of(scene%n_terms, scene%n_modes)
+    real(dp), intent(in) :: amplitude(scene%n_nodes, scene%n_modes)
+    integer(ip), intent(in), value :: shears, n_last
+    real(dp), intent(in), value :: t
+    real(dp), intent(in) :: y(scene%n_states)
     type(energy_type), intent(inout) :: energy(scene%n_nodes)
     real(dp) :: edge_speed
     integer(ip) :: i

@@ -6,7 +6,6 @@
 !> do not depend on the tangential side, then for (U, U'). The cost is linear in the number of
 !> relaxation times.
 module rst_cvode_newton
-  use, intrinsic :: iso_c_binding, only: c_double
   use rst_cvode_types, only: scene_type, contact_type, shear_sums_type, state_depth, state_velocity, memory_at, loading_at, &
                              shift_at, shear_velocity_at, shear_memory_at
   use rst_motion_factors, only: mass_factor, shear_factor
@@ -20,12 +19,12 @@ contains
   !> y: where J is taken; contact and sums are those of y.
   subroutine solve_newton(scene, g, tau, contact, sums, gamma, y, b, x) bind(c, name="rst_cvode_solve_newton")
     type(scene_type), intent(in) :: scene
-    real(c_double), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
+    real(dp), intent(in) :: g(scene%n_terms), tau(scene%n_terms)
     type(contact_type), intent(in) :: contact
     type(shear_sums_type), intent(in) :: sums
-    real(c_double), intent(in), value :: gamma
-    real(c_double), intent(in) :: y(scene%n_states), b(scene%n_states)
-    real(c_double), intent(inout) :: x(scene%n_states)
+    real(dp), intent(in), value :: gamma
+    real(dp), intent(in) :: y(scene%n_states), b(scene%n_states)
+    real(dp), intent(inout) :: x(scene%n_states)
     real(dp) :: change
     call solve_normal(scene, g, tau, contact, gamma, y, b, x, change)
     if (scene%n_states >= shear_velocity_at(scene)) call solve_shear(scene, g, tau, sums, gamma, change, b, x)

@@ -11,7 +11,6 @@
 !> = -S e with S symmetric and semi-definite: its eigenvalues are the inverse retardation times of
 !> the solid.
 module rst_cvode_recovery
-  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use rst_precision, only: dp, ip
   implicit none (type, external)
   private
@@ -24,11 +23,11 @@ contains
   !> one more if eta > 0. `matrix`: workspace.
   subroutine recovery_modes(n_terms, n_modes, g_inf, eta, g, tau, matrix, rate, u, v, from_u, from_v) &
     bind(c, name="rst_cvode_recovery_modes")
-    integer(c_int64_t), intent(in), value :: n_terms, n_modes
-    real(c_double), intent(in), value :: g_inf, eta
-    real(c_double), intent(in) :: g(n_terms), tau(n_terms)
-    real(c_double), intent(out) :: matrix(n_modes, n_modes, 2)
-    real(c_double), intent(out) :: rate(n_modes), u(n_modes), v(n_terms, n_modes), from_u(n_modes), from_v(n_terms, n_modes)
+    integer(ip), intent(in), value :: n_terms, n_modes
+    real(dp), intent(in), value :: g_inf, eta
+    real(dp), intent(in) :: g(n_terms), tau(n_terms)
+    real(dp), intent(out) :: matrix(n_modes, n_modes, 2)
+    real(dp), intent(out) :: rate(n_modes), u(n_modes), v(n_terms, n_modes), from_u(n_modes), from_v(n_terms, n_modes)
     real(dp) :: total, scale
     integer(ip) :: j, k, shift
     total = g_inf
