@@ -349,6 +349,24 @@ static int solve_prescribed(const struct rst_problem *problem, struct rst_worksp
                       unknown ? "; there is no run to compare with" : "");
 }
 
+/* Elements at the edge slip for a time of the order of psi, and swings in stick are faster by
+ * sqrt(chi). The pair needs no step of that length, the division of the energy among friction and
+ * dashpots does. */
+static const double step_in_slip = 1.0 / 30, shortest_step = 1.0 / 64;
+
+/* The ledger by such steps. The one by the steps of the pair stays where there is no work left. */
+static int follow_slip(const struct rst_problem *problem, struct rst_workspace *workspace, const struct scout *scout,
+                       struct rst_outcome *outcome, restitute_error *error)
+{
+    const double wanted = step_in_slip * problem->psi / sqrt(fmax(1, problem->chi));
+    struct run run = {.elements = outcome->elements, .step = fmax(shortest_step * outcome->step, wanted)};
+    restitute_error why;
+    if (problem->mode != RST_PARTIAL_SLIP || run.step >= outcome->step) return RESTITUTE_OK;
+    const int status = run_once(problem, workspace, scout, 1, &outcome->updates, &run, &why);
+    if (!status) outcome->ledger = run.state.ledger;
+    return status == RESTITUTE_ERROR_MEMORY ? rst_report(error, status, "%s", why.message) : RESTITUTE_OK;
+}
+
 static int euler_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,
                        struct rst_outcome *outcome, restitute_error *error)
 {
@@ -356,7 +374,10 @@ static int euler_solve(const struct rst_problem *problem, struct rst_workspace *
     look_ahead(problem, workspace, &scout);
     if (problem->elements > 0 || problem->time_step > 0)
         return solve_prescribed(problem, workspace, &scout, keep_ledger, outcome, error);
-    return solve_refining(problem, workspace, &scout, keep_ledger, outcome, error);
+    const int status = solve_refining(problem, workspace, &scout, keep_ledger, outcome, error);
+    if (status < 0 || !keep_ledger) return status;
+    const int followed = follow_slip(problem, workspace, &scout, outcome, error);
+    return followed < 0 ? followed : status;
 }
 
 /* Where a quantity that is positive on elements 1..n vanishes outside of them: continued linearly

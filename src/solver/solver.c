@@ -270,14 +270,17 @@ static int write_ledger(restitute_solver *solver, struct input *input, const str
 {
     const double allowed = ledger_share * problem->psi * problem->psi;
     struct rst_problem other;
-    struct rst_outcome followed;
+    struct rst_outcome followed, both = *outcome;
     struct merged fewer;
     restitute_error why;
     restitute_ledger_init(ledger);
     rst_write_ledger(problem, outcome, ledger);
     if (problem->mode != RST_PARTIAL_SLIP || merged->fast_bound <= allowed) return RESTITUTE_OK;
     const int status = solve_merged(solver, input, 1, allowed, &other, &followed, &fewer, &why);
-    if (status >= 0) rst_write_ledger(&other, &followed, ledger);
+    if (status >= 0 && other.mode == problem->mode) {
+        both.ledger = followed.ledger; /* what comes back is that of the pair */
+        rst_write_ledger(problem, &both, ledger);
+    }
     return status == RESTITUTE_ERROR_MEMORY ? rst_report(error, status, "%s", why.message) : RESTITUTE_OK;
 }
 

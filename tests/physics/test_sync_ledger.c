@@ -205,6 +205,7 @@ static void merged_terms_do_not_divide_the_energy(void **state)
         const struct solution all = solve_impact(sync_to(1e-6), impact);
         CHECK(s.result.terms_merged == 1 && all.result.terms_merged == 0, "%zu: terms merged", i);
         CHECK(s.result.ez == pair.result.ez && s.result.ex == pair.result.ex, "%zu: the pair differs", i);
+        CHECK_NEAR(s.ledger.rebound_x, s.result.ex * s.result.ex, 1e-15, "%zu", i);
         CHECK_NEAR(s.ledger.friction_x, all.ledger.friction_x, 0.01, "%zu", i);
         CHECK_NEAR(s.ledger.viscous_x, all.ledger.viscous_x, 0.01, "%zu", i);
         CHECK_NEAR(s.ledger.left_x, all.ledger.left_x, 0.01, "%zu", i);
