@@ -487,8 +487,8 @@ typedef struct restitute_ledger {
     double rebound_z, viscous_z, left_z; /**< kinetic after; dissipated in contact; left in the
                                               foundation */
     double residual_z;                   /**< what the method loses: 1 - the three; of first order
-                                              in the step (method sync: of second). In x it is larger
-                                              at small psi, since psi^2 is its unit there */
+                                              in the step (method sync: of second). In x it is
+                                              larger at small psi, as its unit is psi^2 */
     double rebound_x, friction_x, viscous_x, left_x;
     double residual_x;
 } restitute_ledger;
