@@ -136,7 +136,7 @@ done
 kill -TERM $process 2>/dev/null
 wait $process
 [ $? -eq 130 ] || fail "the drawing was not interrupted"
-has err 'interrupted while fig10 is drawn'
+has err 'interrupted after 64 of 64 rows, all in two/fig10.csv'
 absent two/fig10.svg
 refused '--seed: unknown option' sweep --grid psi=1:2:3 --seed 1
 refused '--contours: unknown option' sweep fig4 --contours

@@ -2,7 +2,6 @@
 """`restitute pair --input` and `--grid`: rows are solved in pieces, in order, into OUT.partial,
 which becomes OUT at the end."""
 import os
-import signal
 import time
 import warnings
 from contextlib import contextmanager, nullcontext
@@ -35,10 +34,7 @@ def run(arguments, made=None):
             batch.solve(executor)
             batch.write()
         except KeyboardInterrupt:
-            done = batch.partial.rows() if batch.partial else batch.done
-            say(f"interrupted after {done} of {batch.cases.rows} rows"
-                f"{'; continue with --resume' if batch.partial else ''}")
-            return INTERRUPTED
+            return batch.interrupted()
         except Exception as why:
             if executor is None and not isinstance(why, (Refusal, Error)):
                 raise
@@ -48,7 +44,10 @@ def run(arguments, made=None):
             raise Refusal(f"{text}{more}") from None
         finally:
             batch.leave()
-    return made.finish(batch) if made else batch.report()
+    try:
+        return made.finish(batch) if made else batch.report()
+    except KeyboardInterrupt:
+        return batch.interrupted()
 
 
 def _check_options(arguments):
@@ -78,7 +77,6 @@ class _Batch:
         self.arguments, self.output = arguments, arguments.output
         self.done = self.failures = 0
         self.partial: Any = None
-        self.late: list[int] = []
         self.sink: Any = None
         self.given = problem.values_of(arguments)
         self.solution = problem.solution(arguments, method="euler", tolerance=1e-3)
@@ -184,7 +182,7 @@ class _Batch:
         record = provenance.record(
             self.arguments, self.settings, self.rows.units(), rows=self.cases.rows,
             failed=int(np.count_nonzero(~self.rows.solved)), remarks=remarks, limits_passed=limits)
-        with options.signals_are(lambda number, frame: self.late.append(number)):
+        with options.signals_wait():
             if self.arguments.format != "csv":
                 files.write((self.output, getattr(self.rows, self.arguments.format)(record)))
                 if self.partial:
@@ -193,10 +191,16 @@ class _Batch:
                 files.write((files.beside(self.output, ".meta.json"), provenance.text(record)),
                             between=lambda: self.partial.commit(self.cases.rows))
 
-    def interrupt(self):
-        """What was to interrupt the run while its files were written, interrupts it."""
-        for number in self.late:
-            signal.raise_signal(number)
+    def interrupted(self):
+        """Says where the rows are."""
+        unfinished = self.partial and self.partial.descriptor >= 0
+        done, more = self.partial.rows() if unfinished else self.done, ""
+        if unfinished:
+            more = "; continue with --resume"
+        elif done == self.cases.rows and not files.is_stream(self.output):
+            more = f", all in {self.output}; a figure is to be drawn again"
+        say(f"interrupted after {done} of {self.cases.rows} rows{more}")
+        return INTERRUPTED
 
     def report(self):
         """What is to be said of all rows, the figure, and the exit status."""
@@ -218,7 +222,6 @@ class _Batch:
             verb = "exceed the limit" if option else "are flagged"
             say(f"remark: {limits[name]} {of} {verb} {name}: {text}")
         if self.arguments.figure:
-            self.interrupt()
             self._draw()
         failed = np.count_nonzero(~self.rows.solved)
         if failed:

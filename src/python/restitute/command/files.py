@@ -22,7 +22,7 @@ import stat
 from contextlib import suppress
 from typing import Any
 
-from restitute.command.options import Refusal, emit, write_all
+from restitute.command.options import Refusal, emit, signals_wait, write_all
 
 
 class Place:
@@ -217,16 +217,16 @@ class NewFile:
         """Give it its name."""
         if self.temporary:
             rename(self.temporary, self.place.target)
-            os.close(self.descriptor)
             self.temporary = None
+            os.close(self.descriptor)
 
     def drop(self):
         """Remove it, if it has no name yet."""
         if self.temporary:
             with suppress(FileNotFoundError):
                 os.unlink(self.temporary)
-            os.close(self.descriptor)
             self.temporary = None
+            os.close(self.descriptor)
 
 
 def write(*outputs, between=None):
@@ -236,11 +236,12 @@ def write(*outputs, between=None):
     try:
         for path, content in outputs:
             done.append(NewFile(path, content))
-        if between:
-            between()
-        for file in done:
-            path = file.path
-            file.commit()
+        with signals_wait():
+            if between:
+                between()
+            for file in done:
+                path = file.path
+                file.commit()
     except BrokenPipeError:
         raise
     except OSError as problem:

@@ -226,6 +226,16 @@ def signals_are(handler):
             signal.signal(number, old)
 
 
+@contextmanager
+def signals_wait():
+    """Signals that come meanwhile take effect at the end."""
+    late = []
+    with signals_are(lambda number, frame: late.append(number)):
+        yield
+    for number in late:
+        signal.raise_signal(number)
+
+
 class _Formatter(argparse.RawDescriptionHelpFormatter):
     """Help of 100 columns at most, with the argument of an option behind its last name."""
 

@@ -5,7 +5,7 @@ import argparse
 import os
 
 from restitute.command import options, problem
-from restitute.command.options import Refusal, emit, listed, say
+from restitute.command.options import Refusal, emit, listed
 
 _DRAWN = (".svg", ".pdf")
 _ROWS = (".csv", ".csv.meta.json", ".csv.partial", ".csv.partial.json")
@@ -143,14 +143,8 @@ class _Made:
         ez, ex, contact_time = rows.values[:3]
         self.figure.pairs = SimpleNamespace(ez=ez, ex=ex, contact_time=contact_time,
                                             flags=rows.flags(), status=rows.solved - 1)
-        try:
-            done.interrupt()
-            checks, ax = self.figure.checks(), self.figure.draw()
-            drawn = [(path, files.image(ax, path)) for path in map(self.path.__add__, _DRAWN)]
-        except KeyboardInterrupt:
-            say(f"interrupted while {name} is drawn; make it again")
-            return batch.INTERRUPTED
-        files.write(*drawn)
+        checks, ax = self.figure.checks(), self.figure.draw()
+        files.write(*((path, files.image(ax, path)) for path in map(self.path.__add__, _DRAWN)))
         emit("\n  ".join([f"{name}: {self.figure.spec.title}", *map(str, checks)]) + "\n")
         failed = not all(check.good for check in checks)
         return max(done.report(), batch.FAILED if failed else batch.DONE)
