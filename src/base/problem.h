@@ -115,7 +115,7 @@ static const double rst_change_by_slip = 2;
 /* Largest chi that is accepted. */
 extern const double rst_largest_chi;
 
-/* A material with its moduli times a factor, and times over `time`. */
+/* A material: moduli are multiplied by `factor`, times are divided by `time`. */
 void rst_solid_of(const restitute_material *material, double factor, double time, struct rst_solid *solid);
 
 /* The parallel dashpot is not stronger than delta1 may be. */

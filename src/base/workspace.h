@@ -30,8 +30,8 @@ static inline void *rst_own_memory_of(struct rst_workspace *workspace, size_t si
     return workspace->own;
 }
 
-/* Room for `count` doubles; what was in it is lost if it grows. Nonzero: out of memory, the old
- * contents are kept. */
+/* Room for `count` doubles. If it grows, the old contents are lost. Nonzero: out of memory, and
+ * nothing has changed. */
 int rst_make_room(double **room, size_t *size, size_t count);
 
 /* Room for the arrays of n_terms terms (at least 1). Nonzero: out of memory, the old contents are

@@ -360,9 +360,10 @@ static int follow_slip(const struct rst_problem *problem, struct rst_workspace *
 {
     const double wanted = step_in_slip * problem->psi / sqrt(fmax(1, problem->chi));
     struct run run = {.elements = outcome->elements, .step = fmax(shortest_step * outcome->step, wanted)};
+    int64_t updates = outcome->updates; /* it is not the pair's work */
     restitute_error why;
     if (problem->mode != RST_PARTIAL_SLIP || run.step >= outcome->step) return RESTITUTE_OK;
-    const int status = run_once(problem, workspace, scout, 1, &outcome->updates, &run, &why);
+    const int status = run_once(problem, workspace, scout, 1, &updates, &run, &why);
     if (!status) outcome->ledger = run.state.ledger;
     return status == RESTITUTE_ERROR_MEMORY ? rst_report(error, status, "%s", why.message) : RESTITUTE_OK;
 }

@@ -117,6 +117,9 @@ static void with_method(const restitute_method *method, double tolerance)
     FAIL_EACH({"solver_create", .call = solver_create}, {"plan_create_scene", .call = plan_create},
               {"collide", collide, create_solver, destroy_solver, .settles = 1});
     for (all_outputs = 0; all_outputs < 2; all_outputs++) {
+        impact = impact_of(8.7442, 1.406e-3, 6.438e-5, 16.97); /* the ledger is a run of its own */
+        FAIL_EACH({"solve, short slip", solve_impact_once, create_solver, destroy_solver, .settles = 1});
+        impact = impact_of(7.0 / 6, 0.7, 1, 1);
         FAIL_EACH({"solve", solve_impact_once, create_solver, destroy_solver, .settles = 1},
                   {"plan_solve", plan_solve, begin_plan, end_plan, .settles = 1});
         for (scene.tangential_speed = 0.5; scene.tangential_speed < 3; scene.tangential_speed += 1.5)
@@ -253,7 +256,6 @@ static int set_up(void **state)
     }
     rubber = solid_of(1e6, 0, terms, tau, g);
     glue = solid_of(2e6, 0, 5, tau + 1, g);
-    impact = impact_of(7.0 / 6, 0.7, 1, 1);
     restitute_scene_init(&scene);
     scene.material = rubber;
     scene.radius1 = 0.01;

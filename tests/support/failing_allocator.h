@@ -133,7 +133,7 @@ static inline void spare(const char *function)
 /* A call under test, armed. */
 #define ARMED(status, call) (allocator.armed = 1, (status) = (call), allocator.armed = 0)
 
-/* What is no object of the library: where calls put one, unless they fail. */
+/* An address that no call gives: the output of a call that fails still has it. */
 #define UNTOUCHED ((void *)(uintptr_t)&allocator)
 
 /* Of a subject, the function `name`, whose call makes a restitute_TYPE, `made`; the rest gives what
