@@ -354,18 +354,23 @@ static int solve_prescribed(const struct rst_problem *problem, struct rst_worksp
  * dashpots does. */
 static const double step_in_slip = 1.0 / 30, shortest_step = 1.0 / 64;
 
-/* The ledger by such steps. The one by the steps of the pair stays where there is no work left. */
+/* The ledger by such steps. It may take as much work as the pair; else the one by the steps of the
+ * pair stays. */
 static int follow_slip(const struct rst_problem *problem, struct rst_workspace *workspace, const struct scout *scout,
                        struct rst_outcome *outcome, restitute_error *error)
 {
     const double wanted = step_in_slip * problem->psi / sqrt(fmax(1, problem->chi));
     struct run run = {.elements = outcome->elements, .step = fmax(shortest_step * outcome->step, wanted)};
-    int64_t updates = outcome->updates; /* it is not the pair's work */
+    int64_t updates = 0;
     restitute_error why;
     if (problem->mode != RST_PARTIAL_SLIP || run.step >= outcome->step) return RESTITUTE_OK;
     const int status = run_once(problem, workspace, scout, 1, &updates, &run, &why);
-    if (!status) outcome->ledger = run.state.ledger;
-    return status == RESTITUTE_ERROR_MEMORY ? rst_report(error, status, "%s", why.message) : RESTITUTE_OK;
+    if (status == RESTITUTE_ERROR_MEMORY) return rst_report(error, status, "%s", why.message);
+    if (status)
+        rst_remark(error, "ledger: its steps are longer than slip lasts, see residual_x; raise max_work or time_limit");
+    else
+        outcome->ledger = run.state.ledger;
+    return RESTITUTE_OK;
 }
 
 static int euler_solve(const struct rst_problem *problem, struct rst_workspace *workspace, int keep_ledger,

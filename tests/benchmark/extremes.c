@@ -161,7 +161,8 @@ static void solve_case(struct campaign *c, struct solved_case *d)
     if (!with_ledger) keep_worst(&c->slowest, taken);
     if (d->status < 0 || d->status == RESTITUTE_TOLERANCE_NOT_REACHED) add_remark(c->remarks, d->status, error.message);
     check_result(d, c->options.max_work, error.message);
-    if (with_ledger && d->status == RESTITUTE_OK) check_ledger(c, r, &ledger);
+    if (with_ledger && d->status == RESTITUTE_OK && !strstr(error.message, "ledger: ")) /* a remark: off */
+        check_ledger(c, r, &ledger);
     if (d->status >= 0 && c->second[k] && current / TOLERANCES % c->every == 0) compare(c, d);
     if (faults > before && faults <= shown_faults)
         printf("    tolerance %g, chi %.17g psi %.17g delta1 %.17g gamma %.17g, %zu terms\n", d->tolerance,
