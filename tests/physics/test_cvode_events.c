@@ -73,6 +73,22 @@ static void events_come_in_order_and_change_nothing(void **state)
     CHECK_NEAR(-last->tangential_velocity / 0.8, s.result.ex, 1e-3, "the run with most elements");
 }
 
+/* Also where the ledger is a run of its own, with fewer terms merged. */
+static void events_are_those_of_the_pair(void **state)
+{
+    (void)state;
+    PREPARED(ledger, ledger);
+    const restitute_impact impact = impact_of(8.7442, 1.406e-3, 6.438e-5, 16.97);
+    solve_logged(cvode_to(1e-3), impact, &log_a);
+    log_b.ledger = &ledger;
+    solve_logged(cvode_to(1e-3), impact, &log_b);
+    log_b.ledger = NULL;
+    CHECK_NEAR(ledger.friction_x, 0.8136, 0.01, "with the terms merged as for the pair it is 0.48");
+    CHECK(log_a.events.count == log_b.events.count, "%zu, %zu events", log_a.events.count, log_b.events.count);
+    for (size_t i = 0; i < log_a.events.count; i++)
+        CHECK(log_a.event[i].time == log_b.event[i].time, "event %zu", i);
+}
+
 /* docs/theory.md, section 4: at D' = (2 chi - psi)/(2 chi - 1), everywhere at once, for any solid;
  * elastic: D from the energy. */
 static void gross_slip_ends_once_and_everywhere(void **state)
@@ -170,6 +186,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(elastic_entries_and_exits_are_those_of_hertz),
         cmocka_unit_test(events_come_in_order_and_change_nothing),
+        cmocka_unit_test(events_are_those_of_the_pair),
         cmocka_unit_test(gross_slip_ends_once_and_everywhere),
         cmocka_unit_test(gross_slip_lasts_from_the_critical_psi_on),
         cmocka_unit_test(elastic_elements_stick_again_together),

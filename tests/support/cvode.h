@@ -10,6 +10,7 @@
 enum { most_events = 4000 };
 
 struct logged {
+    restitute_ledger *ledger; /* to be kept; NULL: none */
     int status;
     restitute_result result;
     restitute_cvode_events events;
@@ -53,7 +54,7 @@ static inline void solve_logged(restitute_options options, restitute_impact impa
     restitute_cvode_events_init(&log->events);
     log->events.event = log->event;
     log->events.capacity = most_events;
-    log->status = restitute_solve(r.solver, &impact, &log->result, NULL, NULL, &error);
+    log->status = restitute_solve(r.solver, &impact, &log->result, log->ledger, NULL, &error);
     CHECK(log->status >= 0, "%s", error.message);
     CHECK(restitute_cvode_recorder_events(r.recorder, &log->events, &error) == RESTITUTE_OK, "%s", error.message);
     end_recording(&r);
