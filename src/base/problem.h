@@ -89,6 +89,7 @@ struct rst_outcome {
     int64_t elements, steps, updates;
     struct rst_ledger ledger;
     int sunk;
+    int coarse;       /* euler: the steps of the ledger are longer than slip lasts */
     int late;         /* sync: the limit of time ended refinement */
     int halvings;     /* sync: those of the run that gave the pair */
     int64_t walked;   /* sync: elements in a panel, if elements gave it, else 0 */

@@ -366,10 +366,8 @@ static int follow_slip(const struct rst_problem *problem, struct rst_workspace *
     if (problem->mode != RST_PARTIAL_SLIP || run.step >= outcome->step) return RESTITUTE_OK;
     const int status = run_once(problem, workspace, scout, 1, &updates, &run, &why);
     if (status == RESTITUTE_ERROR_MEMORY) return rst_report(error, status, "%s", why.message);
-    if (status)
-        rst_remark(error, "ledger: its steps are longer than slip lasts, see residual_x; raise max_work or time_limit");
-    else
-        outcome->ledger = run.state.ledger;
+    outcome->coarse = status != RESTITUTE_OK;
+    if (!outcome->coarse) outcome->ledger = run.state.ledger;
     return RESTITUTE_OK;
 }
 

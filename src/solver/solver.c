@@ -296,6 +296,16 @@ static int run_for_ledger(restitute_solver *solver, struct input *input, struct 
     return RESTITUTE_OK;
 }
 
+/* What was not possible within the limits. */
+static void remark_ledger(const struct ledger_run *run, const struct rst_outcome *outcome, restitute_error *error)
+{
+    if (run->wanted && !run->found)
+        rst_remark(error, "ledger: merged terms may move up to 0.4 among friction, viscous and left; raise max_work, "
+                          "time_limit or tolerance");
+    else if (outcome->coarse)
+        rst_remark(error, "ledger: its steps are longer than slip lasts, see residual_x; raise max_work or time_limit");
+}
+
 static int record(restitute_solver *solver, const struct rst_problem *problem, const struct rst_outcome *outcome,
                   size_t capacity, struct rst_history *history, restitute_error *error)
 {
@@ -361,7 +371,10 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
         int recorded = record(solver, &problem, &outcome, history->capacity, &samples, error);
         if (recorded < 0) return recorded;
     }
-    if (apart.found) outcome.ledger = apart.outcome.ledger; /* what comes back is that of the pair */
+    if (apart.found) { /* but what comes back is that of the pair */
+        outcome.ledger = apart.outcome.ledger;
+        outcome.coarse = apart.outcome.coarse;
+    }
     double slow = merged.slow_rate > 0 ? merged.slow_rate * outcome.followed_time : 0;
     rst_write_result(&problem, &outcome, merged.terms, slow + merged.fast_bound, &found);
     rst_judge_validity(&solver->options, input->scene, &input->numbers, &outcome, &found);
@@ -379,9 +392,7 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
     status = judge_tolerance(&problem, &found, status, error);
     if (status == RESTITUTE_OK && outcome.sunk && problem.solid.can_sink) /* else it comes back, however slowly */
         status = rst_report(error, RESTITUTE_NO_REBOUND, "%s", restitute_status_text(RESTITUTE_NO_REBOUND));
-    if (apart.wanted && !apart.found)
-        rst_remark(error, "ledger: merged terms may move up to 0.4 among friction, viscous and left; raise max_work, "
-                          "time_limit or tolerance");
+    remark_ledger(&apart, &outcome, error);
     rst_name_limits(&solver->options, input->scene, &found, error);
     return status;
 }

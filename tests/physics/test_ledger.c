@@ -133,6 +133,10 @@ static void short_slip_is_followed(void **state)
     CHECK_NEAR(e.ledger.viscous_x, s.ledger.viscous_x, 0.02, "viscous");
     CHECK_NEAR(e.ledger.left_x, s.ledger.left_x, 0.02, "left");
     CHECK_NEAR(e.ledger.rebound_x, e.result.ex * e.result.ex, 1e-15, "what comes back is that of the pair");
+    restitute_options little = default_options();
+    little.max_work = 2e-3; /* enough for the pair */
+    const restitute_ledger l = ledger_with_remark(little, impact, "ledger: its steps");
+    CHECK(l.residual_x > 0.1, "by the steps of the pair it is 0.17, not %g", l.residual_x);
 }
 
 int main(void)

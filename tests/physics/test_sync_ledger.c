@@ -210,6 +210,11 @@ static void merged_terms_do_not_divide_the_energy(void **state)
         CHECK_NEAR(s.ledger.viscous_x, all.ledger.viscous_x, 0.01, "%zu", i);
         CHECK_NEAR(s.ledger.left_x, all.ledger.left_x, 0.01, "%zu", i);
     }
+    restitute_options little = sync_to(1e-3);
+    little.max_work = 1.2e-4; /* enough for the pair */
+    const restitute_ledger l =
+        ledger_with_remark(little, impact_of(8.7442, 1.406e-3, 6.438e-5, 16.97), "ledger: merged");
+    CHECK_NEAR(l.friction_x, 0.487, 1e-3, "with the terms merged as for the pair");
 }
 
 /* The polynomial of time swings beside the turning point. What is to be is that of cvode. */

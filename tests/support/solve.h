@@ -3,6 +3,8 @@
 #ifndef TEST_SOLVE_H
 #define TEST_SOLVE_H
 
+#include <string.h>
+
 #include <restitute/restitute.h>
 
 #include "check.h"
@@ -80,6 +82,19 @@ static inline struct solution solve_with(restitute_options options, restitute_im
     CHECK(s.status >= 0, "chi %.17g psi %.17g delta1 %.17g gamma %.17g: %s", impact.chi, impact.psi, impact.delta1,
           impact.gamma, error.message);
     return s;
+}
+
+/* What is said of an impact with little work whose ledger is off for that reason. */
+static inline restitute_ledger ledger_with_remark(restitute_options options, restitute_impact impact,
+                                                  const char *remark)
+{
+    restitute_solver *solver = make_solver(&options);
+    restitute_error error;
+    PREPARED(ledger, ledger);
+    const int status = restitute_solve(solver, &impact, NULL, &ledger, NULL, &error);
+    CHECK(status == RESTITUTE_OK && strstr(error.message, remark), "%d: %s", status, error.message);
+    restitute_solver_destroy(solver);
+    return ledger;
 }
 
 /* Solve; it must not fail. */
