@@ -275,6 +275,7 @@ static int solve_merged(restitute_solver *solver, struct input *input, int keep_
  * belong. */
 struct ledger_run {
     int wanted, found;
+    double shear_speed; /* its square is the unit of energy in x */
     struct rst_outcome outcome;
 };
 
@@ -292,18 +293,32 @@ static int run_for_ledger(restitute_solver *solver, struct input *input, struct 
     const int ran = solve_merged(solver, input, 1, allowed, &problem, &run->outcome, &merged, &why);
     if (ran == RESTITUTE_ERROR_MEMORY) return rst_report(error, ran, "%s", why.message);
     const int as_told = problem.elements > 0 || problem.time_step > 0;
-    run->found = problem.mode == mode && (ran == RESTITUTE_OK || (ran > RESTITUTE_OK && as_told));
+    run->shear_speed = problem.shear_speed;
+    run->wanted = ran < 0 || problem.mode == mode; /* else slip was left out after all */
+    run->found =
+        run->wanted && ran >= 0 && (as_told || fmax(run->outcome.error_ez, run->outcome.error_ex) <= problem.asked);
     return RESTITUTE_OK;
+}
+
+/* What is dissipated and left is that of the ledger's run, what comes back is that of the pair,
+ * which may have left slip out, and has another unit then. */
+static void take_ledger(const struct ledger_run *run, const struct rst_problem *problem, struct rst_outcome *outcome)
+{
+    const double ratio = problem->shear_speed / run->shear_speed;
+    outcome->coarse = run->outcome.coarse;
+    outcome->ledger = run->outcome.ledger;
+    outcome->ledger.friction_x *= ratio * ratio;
+    outcome->ledger.viscous_x *= ratio * ratio;
+    outcome->ledger.left_x *= ratio * ratio;
 }
 
 /* What was not possible within the limits. */
 static void remark_ledger(const struct ledger_run *run, const struct rst_outcome *outcome, restitute_error *error)
 {
     if (run->wanted && !run->found)
-        rst_remark(error, "ledger: merged terms may move up to 0.4 among friction, viscous and left; raise max_work, "
-                          "time_limit or tolerance");
+        rst_remark(error, "ledger: less exact, terms are merged as for the pair");
     else if (outcome->coarse)
-        rst_remark(error, "ledger: its steps are longer than slip lasts, see residual_x; raise max_work or time_limit");
+        rst_remark(error, "ledger: less exact, steps are longer than slip lasts");
 }
 
 static int record(restitute_solver *solver, const struct rst_problem *problem, const struct rst_outcome *outcome,
@@ -371,10 +386,7 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
         int recorded = record(solver, &problem, &outcome, history->capacity, &samples, error);
         if (recorded < 0) return recorded;
     }
-    if (apart.found) { /* but what comes back is that of the pair */
-        outcome.ledger = apart.outcome.ledger;
-        outcome.coarse = apart.outcome.coarse;
-    }
+    if (apart.found) take_ledger(&apart, &problem, &outcome);
     double slow = merged.slow_rate > 0 ? merged.slow_rate * outcome.followed_time : 0;
     rst_write_result(&problem, &outcome, merged.terms, slow + merged.fast_bound, &found);
     rst_judge_validity(&solver->options, input->scene, &input->numbers, &outcome, &found);
@@ -392,8 +404,8 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
     status = judge_tolerance(&problem, &found, status, error);
     if (status == RESTITUTE_OK && outcome.sunk && problem.solid.can_sink) /* else it comes back, however slowly */
         status = rst_report(error, RESTITUTE_NO_REBOUND, "%s", restitute_status_text(RESTITUTE_NO_REBOUND));
-    remark_ledger(&apart, &outcome, error);
     rst_name_limits(&solver->options, input->scene, &found, error);
+    remark_ledger(&apart, &outcome, error);
     return status;
 }
 

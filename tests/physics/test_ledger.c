@@ -135,7 +135,7 @@ static void short_slip_is_followed(void **state)
     CHECK_NEAR(e.ledger.rebound_x, e.result.ex * e.result.ex, 1e-15, "what comes back is that of the pair");
     restitute_options little = default_options();
     little.max_work = 2e-3; /* enough for the pair */
-    const restitute_ledger l = ledger_with_remark(little, impact, "ledger: its steps");
+    const restitute_ledger l = ledger_with_remark(little, impact, "ledger: less exact, steps");
     CHECK(l.residual_x > 0.1, "by the steps of the pair it is 0.17, not %g", l.residual_x);
 }
 

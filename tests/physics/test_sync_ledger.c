@@ -213,7 +213,7 @@ static void merged_terms_do_not_divide_the_energy(void **state)
     restitute_options little = sync_to(1e-3);
     little.max_work = 1.2e-4; /* enough for the pair */
     const restitute_ledger l =
-        ledger_with_remark(little, impact_of(8.7442, 1.406e-3, 6.438e-5, 16.97), "ledger: merged");
+        ledger_with_remark(little, impact_of(8.7442, 1.406e-3, 6.438e-5, 16.97), "ledger: less exact, terms");
     CHECK_NEAR(l.friction_x, 0.487, 1e-3, "with the terms merged as for the pair");
 }
 

@@ -40,7 +40,8 @@ def run(arguments, made=None):
                 raise
             text = str(why) if isinstance(why, (Refusal, Error)) else \
                 f"--scheduler = {arguments.scheduler}: {type(why).__name__}: {why}"
-            more = "; continue with --resume when that is mended" if batch.partial else ""
+            more = "; continue with --resume when that is mended" \
+                if batch.partial and not batch.written else ""
             raise Refusal(f"{text}{more}") from None
         finally:
             batch.leave()
@@ -77,7 +78,9 @@ class _Batch:
         self.arguments, self.output = arguments, arguments.output
         self.done = self.failures = 0
         self.partial: Any = None
+        self.written = False
         self.sink: Any = None
+        self.draws = bool(made or arguments.figure)
         self.given = problem.values_of(arguments)
         self.solution = problem.solution(arguments, method="euler", tolerance=1e-3)
         self.limits = checked(**self.solution)
@@ -182,7 +185,7 @@ class _Batch:
         record = provenance.record(
             self.arguments, self.settings, self.rows.units(), rows=self.cases.rows,
             failed=int(np.count_nonzero(~self.rows.solved)), remarks=remarks, limits_passed=limits)
-        with options.signals_wait():
+        with options.signals_wait() if self.partial else nullcontext():  # a pipe may wait for ever
             if self.arguments.format != "csv":
                 files.write((self.output, getattr(self.rows, self.arguments.format)(record)))
                 if self.partial:
@@ -190,15 +193,16 @@ class _Batch:
             elif self.partial:
                 files.write((files.beside(self.output, ".meta.json"), provenance.text(record)),
                             between=lambda: self.partial.commit(self.cases.rows))
+            self.written = bool(self.partial)
 
     def interrupted(self):
         """Says where the rows are."""
-        unfinished = self.partial and self.partial.descriptor >= 0
+        unfinished = self.partial and not self.written
         done, more = self.partial.rows() if unfinished else self.done, ""
         if unfinished:
             more = "; continue with --resume"
-        elif done == self.cases.rows and not files.is_stream(self.output):
-            more = f", all in {self.output}; a figure is to be drawn again"
+        elif self.written:
+            more = f", all in {self.output}{'; the figure may be missing' if self.draws else ''}"
         say(f"interrupted after {done} of {self.cases.rows} rows{more}")
         return INTERRUPTED
 

@@ -230,10 +230,12 @@ def signals_are(handler):
 def signals_wait():
     """Signals that come meanwhile take effect at the end."""
     late = []
-    with signals_are(lambda number, frame: late.append(number)):
-        yield
-    for number in late:
-        signal.raise_signal(number)
+    try:
+        with signals_are(lambda number, frame: late.append(number)):
+            yield
+    finally:
+        for number in late:
+            signal.raise_signal(number)
 
 
 class _Formatter(argparse.RawDescriptionHelpFormatter):

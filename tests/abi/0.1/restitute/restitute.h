@@ -382,10 +382,10 @@ typedef struct restitute_options {
                                          restitute_result.work), not measured: a nominal second
                                          takes about one second of a core of the year 2020, and the
                                          same call ends at the same place on every machine, if
-                                         time_limit is infinite. A ledger may take as much again. A
-                                         call that reaches it before the tolerance, or whose next
-                                         refinement would, returns its best with
-                                         TOLERANCE_NOT_REACHED */
+                                         time_limit is infinite. A ledger comes on top, with up to
+                                         three times as much. A call that reaches it before the
+                                         tolerance, or whose next refinement would, returns its
+                                         best with TOLERANCE_NOT_REACHED */
     double time_limit;              /**< processor time that an impact may take, in s, >= 0. From
                                          0.1 s on it is kept within a factor of two; a history,
                                          events and a ledger come on top. 0 (default): 1 s, or no
@@ -481,9 +481,11 @@ RESTITUTE_INIT(RESTITUTE_SINCE_0_1, result)
  *  account adds up to 1 - residual. Where slip is as short as the relaxation of terms that are
  *  merged for the pair, friction, viscous and left are those of a run with fewer terms merged:
  *  merging then moved 0.006 at most among them (method sync, 3000 impacts). If that run passes
- *  max_work, time_limit or tolerance, they are those of the pair's run, a remark says so, and up to
- *  0.4 was seen. With psi below an eighth of the tolerance slip is left out: then left has what
- *  friction takes. */
+ *  max_work or time_limit, or misses the tolerance, they are those of the pair's run, and a remark
+ *  says so: merged terms moved up to 0.4 among them. With psi below an eighth of the tolerance, and
+ *  where slip is known less exactly than what it changes, slip is left out: then left has what
+ *  friction takes. With given elements or time_step euler does not follow slip that is shorter than
+ *  its steps. */
 typedef struct restitute_ledger {
     size_t struct_size;                  /**< set by @ref restitute_ledger_init */
     double rebound_z, viscous_z, left_z; /**< kinetic after; dissipated in contact; left in the
