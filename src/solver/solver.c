@@ -379,7 +379,7 @@ static int solve(restitute_solver *solver, struct input *input, restitute_result
     input->deadline = deadline(&solver->options);
     int status = ledger ? run_for_ledger(solver, input, &apart, error) : RESTITUTE_OK;
     if (status) return status;
-    if (apart.wanted) input->deadline = deadline(&solver->options); /* a ledger comes on top */
+    if (ledger) input->deadline = deadline(&solver->options); /* a ledger comes on top */
     status = solve_merged(solver, input, ledger && !apart.found, INFINITY, &problem, &outcome, &merged, error);
     if (status < 0) return status;
     if (history) {
