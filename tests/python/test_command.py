@@ -210,9 +210,10 @@ def test_a_signal_while_rows_are_written_is_not_lost(run, monkeypatch, tmp_path)
         committed(partial, rows)
         os.kill(os.getpid(), signal.SIGINT)
     monkeypatch.setattr(Partial, "commit", commit)
-    status, _, err = run("paper", "fig10", "--output", str(tmp_path))
-    assert status == 130 and "interrupted after 64 of 64 rows, all in" in err
-    assert sorted(os.listdir(tmp_path)) == ["fig10.csv", "fig10.csv.meta.json"]
+    out = str(tmp_path / "o.csv")
+    status, _, err = run("pair", "--grid", "psi=1:2:3", "--output", out)
+    assert status == 130 and err == f"restitute: interrupted after 3 of 3 rows, all in {out}\n"
+    assert sorted(os.listdir(tmp_path)) == ["o.csv", "o.csv.meta.json"]
 
 
 def test_a_signal_while_numpy_is_imported_ends_the_command_without_a_word(tmp_path):
