@@ -80,9 +80,7 @@ static void events_are_those_of_the_pair(void **state)
     PREPARED(ledger, ledger);
     const restitute_impact impact = impact_of(8.7442, 1.406e-3, 6.438e-5, 16.97);
     solve_logged(cvode_to(1e-3), impact, &log_a);
-    log_b.ledger = &ledger;
-    solve_logged(cvode_to(1e-3), impact, &log_b);
-    log_b.ledger = NULL;
+    solve_logged_with(cvode_to(1e-3), impact, &ledger, &log_b);
     CHECK_NEAR(ledger.friction_x, 0.8136, 0.01, "with the terms merged as for the pair it is 0.48");
     CHECK(log_a.events.count == log_b.events.count, "%zu, %zu events", log_a.events.count, log_b.events.count);
     for (size_t i = 0; i < log_a.events.count; i++)

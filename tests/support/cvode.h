@@ -10,7 +10,6 @@
 enum { most_events = 4000 };
 
 struct logged {
-    restitute_ledger *ledger; /* to be kept; NULL: none */
     int status;
     restitute_result result;
     restitute_cvode_events events;
@@ -46,7 +45,8 @@ static inline void end_recording(const struct recording *r)
     restitute_cvode_recorder_destroy(r->recorder);
 }
 
-static inline void solve_logged(restitute_options options, restitute_impact impact, struct logged *log)
+static inline void solve_logged_with(restitute_options options, restitute_impact impact, restitute_ledger *ledger,
+                                     struct logged *log)
 {
     const struct recording r = record_with(options);
     restitute_error error;
@@ -54,11 +54,16 @@ static inline void solve_logged(restitute_options options, restitute_impact impa
     restitute_cvode_events_init(&log->events);
     log->events.event = log->event;
     log->events.capacity = most_events;
-    log->status = restitute_solve(r.solver, &impact, &log->result, log->ledger, NULL, &error);
+    log->status = restitute_solve(r.solver, &impact, &log->result, ledger, NULL, &error);
     CHECK(log->status >= 0, "%s", error.message);
     CHECK(restitute_cvode_recorder_events(r.recorder, &log->events, &error) == RESTITUTE_OK, "%s", error.message);
     end_recording(&r);
     CHECK(log->events.count <= most_events, "%zu events", log->events.count);
+}
+
+static inline void solve_logged(restitute_options options, restitute_impact impact, struct logged *log)
+{
+    solve_logged_with(options, impact, NULL, log);
 }
 
 static inline int count_events(const struct logged *log, int kind)
